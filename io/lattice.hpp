@@ -1,0 +1,31 @@
+// Lattices cut to simple shapes and split into simplices: meshes without a mesh file.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "io/mesh.hpp"
+
+namespace cleave::io {
+
+enum class LatticeKind { square, hexagonal, cubic, bcc, fcc };
+enum class ShapeKind { block, cylinder, sphere };  // in two dimensions: rectangle, disc (sphere)
+
+struct LatticeSpec {
+  LatticeKind lattice = LatticeKind::cubic;
+  ShapeKind shape = ShapeKind::block;
+  double spacing = 0;                     // nearest-neighbour distance [m]
+  std::array<double, 3> origin{0, 0, 0};  // block: lowest corner; cylinder: centre of the base; sphere: centre
+  std::array<double, 3> size{0, 0, 0};    // block: edge lengths (fitted: see below)
+  double radius = 0, height = 0;          // cylinder (axis `axis`), sphere, disc
+  int axis = 2;
+};
+
+// Points are numbered lexicographically. square and hexagonal give triangles, the others tetrahedra
+// (Kuhn split of the primitive cell; square: alternating diagonals), all of positive volume. A
+// block of a square or cubic lattice whose edge is not a multiple of the spacing within 1e-6 is refused
+// with the two nearest sizes. Groups: all simplices as "all"; for a block the points of its faces as
+// "xmin","xmax","ymin","ymax","zmin","zmax" (extreme coordinates within half a spacing * 1e-6).
+Mesh make_lattice(const LatticeSpec& spec);
+
+}  // namespace cleave::io

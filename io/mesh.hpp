@@ -1,0 +1,47 @@
+// Meshes from files: points, cells and named groups, nothing of physics.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace cleave::io {
+
+// Linear cells only; a file with other cells is read and those cells are counted in `skipped`
+// (second-order meshes are refused with a message that says how to mesh again).
+enum class CellKind { point = 1, line = 2, triangle = 3, tetrahedron = 4 };  // value = corners
+
+struct CellBlock {
+  CellKind kind = CellKind::point;
+  std::vector<std::int64_t> nodes;  // (corners, n) 0-based indices into Mesh::points
+  std::int64_t count() const { return static_cast<std::int64_t>(nodes.size()) / static_cast<int>(kind); }
+};
+
+// A named group: Gmsh physical group, Exodus block, node set or side set.
+struct MeshGroup {
+  std::string name;                 // the name in the file, or "<dim>:<tag>" if it has none
+  int dimension = 0;                // 0 points, 1 lines, 2 triangles, 3 tetrahedra
+  std::vector<std::int64_t> nodes;  // sorted, unique, 0-based: all nodes of the group
+  std::vector<std::int64_t> cells;  // 0-based into the block of that dimension (empty for node sets)
+};
+
+struct Mesh {
+  std::string path;
+  std::vector<double> points;            // (3, n)
+  std::vector<std::int64_t> point_ids;   // (n) number in the file
+  CellBlock lines{CellKind::line, {}};
+  CellBlock triangles{CellKind::triangle, {}};
+  CellBlock tetrahedra{CellKind::tetrahedron, {}};
+  std::vector<MeshGroup> groups;
+
+  std::int64_t point_count() const { return static_cast<std::int64_t>(points.size()) / 3; }
+  const MeshGroup* find_group(const std::string& name) const;  // nullptr if absent
+};
+
+// Gmsh MSH 2.2 and 4.1 (ASCII and binary) and Exodus II, told apart by content, not by file name.
+// Throws io::Error: cannot open, not a mesh, truncated (with line or byte), unsupported version (with
+// what to do), node index out of range. Never crashes on garbage.
+Mesh read_mesh(const std::string& path);
+
+}  // namespace cleave::io

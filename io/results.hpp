@@ -1,0 +1,71 @@
+// Results over time in Exodus II: opens in ParaView, VisIt and VTK.
+//
+// Nodes are particles (displacement in the variables DISPLX/Y/Z, so that readers can deform the
+// mesh); elements are simplices, or spheres for bodies without simplices. Deleted simplices stay, with the
+// element variable "status" 0.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/mesh.hpp"
+
+namespace cleave::io {
+
+struct ResultBlock {
+  std::string name;
+  CellKind kind = CellKind::triangle;  // point: Exodus "SPHERE"
+  std::vector<std::int64_t> nodes;     // (corners, n) 0-based, over all nodes of the file
+};
+
+struct ResultVariable {
+  std::string name, units, description;  // scalars: a vector v is written as v_x, v_y, v_z
+};
+
+struct ResultLayout {
+  std::string title;  // cut to 80 characters by the format
+  int dimension = 3;  // 2 or 3
+  std::vector<double> points;            // (3, n)
+  std::vector<std::int64_t> point_ids;   // (n) 1-based numbers shown to users
+  std::vector<ResultBlock> blocks;
+  std::vector<MeshGroup> node_sets;      // name and nodes are used
+  std::vector<ResultVariable> nodal, element, global;
+  std::vector<std::pair<std::string, std::string>> information;  // name, text: stored as info records
+};
+
+class ResultsWriter {
+ public:
+  static ResultsWriter create(const std::string& path, const ResultLayout& layout);
+  // Keeps the first `frames` frames and continues after them. Throws io::Error.
+  static ResultsWriter reopen(const std::string& path, const ResultLayout& layout, std::int64_t frames);
+  ResultsWriter(ResultsWriter&&) noexcept;
+  ResultsWriter& operator=(ResultsWriter&&) noexcept;
+  ~ResultsWriter();
+
+  // nodal[v] is (n points), element[v] is (n elements of all blocks in order), global (n globals).
+  void write_frame(double time, std::span<const std::vector<double>> nodal,
+                   std::span<const std::vector<double>> element, std::span<const double> global);
+  std::int64_t frames() const;
+
+ private:
+  struct Impl;
+  explicit ResultsWriter(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+// What `cleave info` prints: sizes, frames with their times, variables.
+struct ResultSummary {
+  std::string title;
+  int dimension = 0;
+  std::int64_t points = 0, elements = 0;
+  std::vector<double> times;
+  std::vector<std::string> nodal, element, global;
+};
+ResultSummary summarise_results(const std::string& path);
+
+}  // namespace cleave::io
