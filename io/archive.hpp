@@ -1,8 +1,9 @@
 // Named arrays with units in a netCDF file: the form of checkpoints.
 //
-// CDF-5, self-describing; every array carries units, a description and a checksum; the attributes
-// carry a checksum over the header. Written under a temporary name, flushed to disk, read back and
-// verified, renamed, directory flushed.
+// CDF-5, self-describing; every array carries units, a description and a checksum, and the variable
+// "header_checksum" covers everything else in the file. Written under a temporary name, flushed to
+// disk, read back and verified, renamed, directory flushed. The same archive gives the same bytes.
+// Every array here is in memory as a whole; results over time are results.hpp.
 #pragma once
 
 #include <cstdint>
@@ -15,29 +16,55 @@ namespace cleave::io {
 
 using ArrayData = std::variant<std::vector<double>, std::vector<std::int64_t>>;
 
+// Names of arrays: letters, digits, '_', '.', '-', '/', '@', '+', beginning with a letter, a digit or '_';
+// unique in the archive, at most 255 characters. In the file '/' is written ':' (netCDF forbids '/').
 struct NamedArray {
-  std::string name;         // letters, digits, '_', '.', '/'; unique in the archive
-  std::string units;        // "m", "1", ...
+  std::string name;
+  std::string units;  // "m", "1", ...
   std::string description;
   std::int64_t components = 1;  // data is (components, n), components fastest
   ArrayData data;
 };
 
 using AttributeValue = std::variant<std::string, std::int64_t, double>;
+using Attribute = std::pair<std::string, AttributeValue>;
 
 struct Archive {
-  std::vector<std::pair<std::string, AttributeValue>> attributes;
+  std::vector<Attribute> attributes;  // names by the rules for arrays, without '/'
   std::vector<NamedArray> arrays;
 
-  const AttributeValue* find_attribute(const std::string& name) const;
-  const NamedArray* find_array(const std::string& name) const;
+  const AttributeValue* find_attribute(const std::string& name) const;  // nullptr if absent
+  const NamedArray* find_array(const std::string& name) const;          // nullptr if absent
 };
 
-// Throws io::Error (disk full, no permission, ...); the file `path`, if there was one, is untouched then.
+// An archive without its data.
+struct ArrayInfo {
+  std::string name, units, description;
+  bool is_integer = false;
+  std::int64_t components = 1;
+  std::int64_t size = 0;       // values, all components together
+  std::uint64_t checksum = 0;  // CRC-64/XZ of the values (io/checksum.hpp)
+};
+
+struct ArchiveHeader {
+  std::vector<Attribute> attributes;
+  std::vector<ArrayInfo> arrays;
+
+  const AttributeValue* find_attribute(const std::string& name) const;  // nullptr if absent
+  const ArrayInfo* find_array(const std::string& name) const;           // nullptr if absent
+};
+
+// Throws io::Error (disk full, no permission, ...); a file that was at `path` is untouched then.
+// A killed write leaves at most `path`.part, which the next write to `path` replaces.
 void write_archive(const std::string& path, const Archive& archive);
+
 // Verifies every checksum; throws io::Error naming the file and the array that fails.
 Archive read_archive(const std::string& path);
-// The attributes and the arrays' names, units and sizes, without reading or verifying the data.
-Archive read_archive_header(const std::string& path);
+
+// As read_archive, but keeps nothing: memory for one block of one array, whatever the size.
+void verify_archive(const std::string& path);
+
+// The header is verified, the arrays are neither read nor verified.
+ArchiveHeader read_archive_header(const std::string& path);
 
 }  // namespace cleave::io

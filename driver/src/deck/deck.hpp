@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <stdexcept>
 #include <string>
 #include <variant>
 #include <vector>
@@ -18,13 +19,15 @@ struct DeckError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-using KeyValue = std::variant<double, std::int64_t, bool, std::string, std::vector<double>, std::vector<std::string>>;
+using KeyValue = std::variant<double, std::int64_t, bool, std::string, std::vector<double>,
+                              std::vector<std::string>>;
 
 struct DeckKey {
   std::string name;
   KeyValue value;
-  bool given = false;            // false: the default
-  io::namelist::Place place{};   // of the key if given, else of the group
+  bool given = false;           // false: the default
+  bool parameter = false;       // of a law or parameter group: handed to the kernels by its name
+  io::namelist::Place place{};  // of the key if given, else of the group
 };
 
 class DeckGroup {
@@ -46,7 +49,8 @@ class DeckGroup {
 class Deck {
  public:
   io::namelist::File source;
-  std::vector<DeckGroup> groups;  // as in the file; groups of kind "once" that are missing are added with defaults
+  std::vector<DeckGroup>
+      groups;  // as in the file; groups of kind "once" that are missing are added with defaults
 
   const DeckGroup& one(const char* group) const;
   std::vector<const DeckGroup*> all(const char* group) const;
@@ -55,11 +59,15 @@ class Deck {
   [[noreturn]] void fail(const DeckGroup& group, const char* key, const std::string& message) const;
   [[noreturn]] void fail(const DeckGroup& group, const std::string& message) const;
 
-  // Namelist text with every key, that reproduces the run.
-  std::string resolved() const;
+  // Namelist text with every key, that reproduces the run. It is to be kept in `directory`: paths
+  // relative to this deck are rewritten to start there; empty: beside the deck, they stay as they
+  // are.
+  std::string resolved(const std::string& directory = "") const;
 };
 
-// Throws DeckError with place, what is allowed and the nearest known name.
+// Throws DeckError with place, what is allowed and the nearest known name; several mistakes are
+// reported together. `path` is where the text comes from: for messages, the default of the run's
+// name, and paths relative to the deck.
 Deck read_deck(const std::string& path);
 Deck parse_deck(std::string text, const std::string& path);
 

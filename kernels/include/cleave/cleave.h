@@ -14,8 +14,8 @@
  *   - Vectors are consecutive triples, v(3,n) in Fortran; in two dimensions the third component is
  *     present, ignored on input and zero on output.
  *   - Tensors are nine consecutive numbers 11 21 31 12 22 32 13 23 33, t(3,3,n) in Fortran, so that
- *     Fortran's t(i,j,n) is component ij.  First index of F: current, second: reference.  First index
- *     of P: force direction, second: reference.
+ *     Fortran's t(i,j,n) is component ij.  First index of F: current, second: reference.  First
+ * index of P: force direction, second: reference.
  *   - There is no unit system: any consistent set.  Dimensions are given in SI as [Pa].  In two
  *     dimensions volumes are areas, forces are per thickness.
  *   - Structs begin with their size; fill them with the init function, which sets the defaults.
@@ -75,10 +75,10 @@ enum cleave_table {
 enum cleave_type { CLEAVE_REAL = 1, CLEAVE_INTEGER = 2, CLEAVE_CHOICE = 3 };
 
 enum cleave_relation {
-  CLEAVE_RELATION_BODY = 1,    /* one value a body */
-  CLEAVE_RELATION_POINT = 2,   /* a particle */
-  CLEAVE_RELATION_BOND = 3,    /* an undirected bond */
-  CLEAVE_RELATION_SIMPLEX = 4, /* a triangle or tetrahedron */
+  CLEAVE_RELATION_BODY = 1,     /* one value a body */
+  CLEAVE_RELATION_POINT = 2,    /* a particle */
+  CLEAVE_RELATION_BOND = 3,     /* an undirected bond */
+  CLEAVE_RELATION_SIMPLEX = 4,  /* a triangle or tetrahedron */
   CLEAVE_RELATION_HALF_BOND = 5 /* a bond seen from one end: twice the bonds */
 };
 
@@ -110,10 +110,10 @@ CLEAVE_API const char* cleave_status_text(int32_t status);
 /* A line of a table. */
 typedef struct cleave_table_entry {
   int64_t size;
-  int32_t value;       /* enumeration value; 0 in CLEAVE_TABLE_GROUP */
-  const char* name;    /* as used in decks and in this interface */
-  const char* title;   /* for people */
-  const char* source;  /* equation tag or reference; "" if none */
+  int32_t value;      /* enumeration value; 0 in CLEAVE_TABLE_GROUP */
+  const char* name;   /* as used in decks and in this interface */
+  const char* title;  /* for people */
+  const char* source; /* equation tag or reference; "" if none */
 } cleave_table_entry;
 
 CLEAVE_API int32_t cleave_table_count(int32_t table, int64_t* count);
@@ -126,20 +126,21 @@ CLEAVE_API int32_t cleave_table_find(int32_t table, const char* name, int32_t* v
 typedef struct cleave_parameter {
   int64_t size;
   const char* name;
-  const char* units;       /* "Pa", "1", ... */
+  const char* units; /* "Pa", "1", ... */
   const char* description;
-  const char* choices;     /* type CLEAVE_CHOICE: "paper|central|frozen"; else "" */
+  const char* choices;        /* type CLEAVE_CHOICE: "paper|central|frozen"; else "" */
   const char* default_choice; /* type CLEAVE_CHOICE and not required */
-  const char* source;      /* equation tag; "" if none */
-  double minimum, maximum; /* closed range unless the next two say otherwise */
+  const char* source;         /* equation tag; "" if none */
+  double minimum, maximum;    /* closed range unless the next two say otherwise */
   double default_value;
-  int32_t type;            /* enum cleave_type */
+  int32_t type; /* enum cleave_type */
   int32_t minimum_excluded, maximum_excluded;
-  int32_t required;        /* 1: no default */
+  int32_t required; /* 1: no default */
 } cleave_parameter;
 
 CLEAVE_API int32_t cleave_parameter_count(const char* owner, int64_t* count);
-CLEAVE_API int32_t cleave_parameter_get(const char* owner, int64_t index, cleave_parameter* parameter);
+CLEAVE_API int32_t cleave_parameter_get(const char* owner, int64_t index,
+                                        cleave_parameter* parameter);
 
 /* A field: its line in the fields table, and its size in a body where there is one. */
 typedef struct cleave_field {
@@ -147,13 +148,13 @@ typedef struct cleave_field {
   const char* name;
   const char* units;
   const char* description;
-  const char* owner;    /* "core", a formulation or a material */
-  const char* rebuild;  /* lifetime cache or derived: what computes it; else "" */
-  int64_t count;        /* entries in this body; 0 in the table listing */
-  int32_t components;   /* 1 scalar, 3 vector, 9 tensor, else n */
-  int32_t type;         /* CLEAVE_REAL or CLEAVE_INTEGER */
+  const char* owner;          /* "core", a formulation or a material */
+  const char* rebuild;        /* lifetime cache or derived: what computes it; else "" */
+  int64_t count;              /* entries in this body; 0 in the table listing */
+  int32_t components;         /* 1 scalar, 3 vector, 9 tensor, else n */
+  int32_t type;               /* CLEAVE_REAL or CLEAVE_INTEGER */
   int32_t relation, lifetime; /* enums above */
-  int32_t output;       /* 1: written to results unless the deck chooses fields itself */
+  int32_t output;             /* 1: written to results unless the deck chooses fields itself */
 } cleave_field;
 
 /* The whole table: core fields, every formulation's, every material's history. */
@@ -169,8 +170,9 @@ CLEAVE_API int32_t cleave_field_table_fingerprint(uint64_t* fingerprint);
  * [in]  simplices (dim+1,m)     0-based particle indices
  * [out] row_begin (n+1)         half-bonds of particle i are row_begin[i] <= b < row_begin[i+1]
  * row_begin[n] is the number of half-bonds; allocate the arrays of cleave_cbm_bonds with it. */
-CLEAVE_API int32_t cleave_cbm_count_bonds(int32_t dimension, int64_t particles, int64_t simplex_count,
-                                          const int64_t* simplices, int64_t* row_begin);
+CLEAVE_API int32_t cleave_cbm_count_bonds(int32_t dimension, int64_t particles,
+                                          int64_t simplex_count, const int64_t* simplices,
+                                          int64_t* row_begin);
 
 /* Bond vectors and averaging volumes from the live simplices.            [CBM 1, 4-9]
  * [in]  X (3,n)        reference position [m]
@@ -180,24 +182,29 @@ CLEAVE_API int32_t cleave_cbm_count_bonds(int32_t dimension, int64_t particles, 
  * [out] reverse (h)    index of the same bond seen from the other end
  * [out] zeta (3,h)     bond vector, reference configuration [m2] (2D: [m])
  * [out] volume (n)     averaging volume [m3] (2D: [m2])
- * Errors: BAD_SIMPLEX (volume not above 1e-12 of the cube of its longest edge; orientation is free). */
-CLEAVE_API int32_t cleave_cbm_bonds(int32_t dimension, int64_t particles, const double* X, int64_t simplex_count,
-                                    const int64_t* simplices, const int32_t* alive, const int64_t* row_begin,
-                                    int64_t* neighbour, int64_t* reverse, double* zeta, double* volume);
+ * Errors: BAD_SIMPLEX (volume not above 1e-12 of the cube of its longest edge; orientation is
+ * free). */
+CLEAVE_API int32_t cleave_cbm_bonds(int32_t dimension, int64_t particles, const double* X,
+                                    int64_t simplex_count, const int64_t* simplices,
+                                    const int32_t* alive, const int64_t* row_begin,
+                                    int64_t* neighbour, int64_t* reverse, double* zeta,
+                                    double* volume);
 
 /* Displacement gradient H = F - I of particles first..last.                    [CBM 8]
  * [in]  u (3,n)   displacement [m]
  * [out] H (9,n)   rows first..last are set; H33 = 0 in two dimensions; zero where volume is zero */
-CLEAVE_API int32_t cleave_displacement_gradient(int32_t dimension, int64_t first, int64_t last, const int64_t* row_begin,
-                                                const int64_t* neighbour, const double* zeta,
-                                                const double* volume, const double* u, double* H);
+CLEAVE_API int32_t cleave_displacement_gradient(int32_t dimension, int64_t first, int64_t last,
+                                                const int64_t* row_begin, const int64_t* neighbour,
+                                                const double* zeta, const double* volume,
+                                                const double* u, double* H);
 
 /* Force of the bonds on particles first..last: sum_p (P_i zeta_ip - P_p zeta_pi).   [CBM 18, 19]
  * [in]     P (9,n)   first Piola-Kirchhoff stress [Pa]
  * [in,out] f (3,n)   force [N], added to, not set */
-CLEAVE_API int32_t cleave_bond_force(int32_t dimension, int64_t first, int64_t last, const int64_t* row_begin,
-                                     const int64_t* neighbour, const int64_t* reverse, const double* zeta,
-                                     const double* P, double* f);
+CLEAVE_API int32_t cleave_bond_force(int32_t dimension, int64_t first, int64_t last,
+                                     const int64_t* row_begin, const int64_t* neighbour,
+                                     const int64_t* reverse, const double* zeta, const double* P,
+                                     double* f);
 
 /* Artificial viscosity with frozen bond weights on particles first..last, see cleave_parameter_get
  * ("viscosity") for the forms of the model.                                     [CBM 21, 22]
@@ -205,9 +212,10 @@ CLEAVE_API int32_t cleave_bond_force(int32_t dimension, int64_t first, int64_t l
  * [in]     w (h)       zeta_ip . X_ip [m3]    [in] coefficient  beta l_c rho0 c0 [Pa s]
  * [in]     length      l_c of the regularisation [m]
  * [in,out] f (3,n)     force [N], added to */
-CLEAVE_API int32_t cleave_bond_viscosity(int32_t dimension, int64_t first, int64_t last, const int64_t* row_begin,
-                                         const int64_t* neighbour, const int64_t* reverse, const double* w,
-                                         const double* x, const double* v, const double* J, double coefficient,
+CLEAVE_API int32_t cleave_bond_viscosity(int32_t dimension, int64_t first, int64_t last,
+                                         const int64_t* row_begin, const int64_t* neighbour,
+                                         const int64_t* reverse, const double* w, const double* x,
+                                         const double* v, const double* J, double coefficient,
                                          double length, double* f);
 
 /* Stress and energy density of a material law, points first..last.
@@ -218,20 +226,23 @@ CLEAVE_API int32_t cleave_bond_viscosity(int32_t dimension, int64_t first, int64
  * [out]    energy (n)        stored energy per reference volume [J m-3]; may be NULL
  * [out]    failed (n)        1 where the law has no answer (P = 0, history untouched); may be NULL
  * Returns BAD_JACOBIAN if any point failed, after all points have been done. */
-CLEAVE_API int32_t cleave_material_stress(int32_t material, int32_t kinematics, int64_t property_count,
-                                          const double* properties, int64_t first, int64_t last, const double* H,
-                                          double* history, double* P, double* energy, int32_t* failed);
+CLEAVE_API int32_t cleave_material_stress(int32_t material, int32_t kinematics,
+                                          int64_t property_count, const double* properties,
+                                          int64_t first, int64_t last, const double* H,
+                                          double* history, double* P, double* energy,
+                                          int32_t* failed);
 CLEAVE_API int32_t cleave_material_history_count(int32_t material, int64_t* count);
 /* Longitudinal wave speed of the undeformed material (plane stress: plate speed) [m s-1]. */
-CLEAVE_API int32_t cleave_material_wave_speed(int32_t material, int32_t kinematics, int64_t property_count,
-                                              const double* properties, double* speed);
+CLEAVE_API int32_t cleave_material_wave_speed(int32_t material, int32_t kinematics,
+                                              int64_t property_count, const double* properties,
+                                              double* speed);
 
 /* Smooth ramps with s = t/tau: displacement u*(6s^5-15s^4+10s^3) [CBM 26], velocity v*(3s^2-2s^3)
  * [CBM 30]; constant afterwards, zero for t <= 0.  tau = 0: a jump.
  * [out] displacement, velocity, acceleration: may be NULL */
 enum cleave_ramp_kind { CLEAVE_RAMP_DISPLACEMENT = 1, CLEAVE_RAMP_VELOCITY = 2 };
-CLEAVE_API int32_t cleave_ramp(int32_t kind, double value, double tau, double t, double* displacement,
-                               double* velocity, double* acceleration);
+CLEAVE_API int32_t cleave_ramp(int32_t kind, double value, double tau, double t,
+                               double* displacement, double* velocity, double* acceleration);
 
 /* ---------------------------------------------------------------- model handle ---- */
 
@@ -246,46 +257,54 @@ CLEAVE_API int32_t cleave_model_set_threads(cleave_model* model, int32_t threads
 
 typedef struct cleave_body_spec {
   int64_t size;
-  int32_t formulation;        /* enum cleave_formulation */
-  int32_t kinematics;         /* enum cleave_kinematics */
-  int32_t material;           /* enum cleave_material */
+  int32_t formulation; /* enum cleave_formulation */
+  int32_t kinematics;  /* enum cleave_kinematics */
+  int32_t material;    /* enum cleave_material */
   int32_t reserved;
-  int64_t particles;          /* n > 0 */
-  const double* X;            /* (3,n) reference position [m]; copied */
-  int64_t simplex_count;      /* m >= 0 */
-  const int64_t* simplices;   /* (dim+1,m) 0-based; copied; orientation is free */
-  const char* name;           /* used in messages; copied */
+  int64_t particles;        /* n > 0 */
+  const double* X;          /* (3,n) reference position [m]; copied */
+  int64_t simplex_count;    /* m >= 0 */
+  const int64_t* simplices; /* (dim+1,m) 0-based; copied; orientation is free */
+  const char* name;         /* used in messages; copied */
 } cleave_body_spec;
 CLEAVE_API int32_t cleave_body_spec_init(cleave_body_spec* spec);
 
 /* Adds a body.  [out] body: its index, 0, 1, ... */
-CLEAVE_API int32_t cleave_body_add(cleave_model* model, const cleave_body_spec* spec, int64_t* body);
+CLEAVE_API int32_t cleave_body_add(cleave_model* model, const cleave_body_spec* spec,
+                                   int64_t* body);
 
 /* Parameters before cleave_model_setup.  group: "material" (the body's law) or a name of
- * CLEAVE_TABLE_GROUP.  Unknown names list the known ones; values are checked against their range. */
-CLEAVE_API int32_t cleave_body_set_real(cleave_model* model, int64_t body, const char* group, const char* name,
-                                        double value);
-CLEAVE_API int32_t cleave_body_set_choice(cleave_model* model, int64_t body, const char* group, const char* name,
-                                          const char* choice);
+ * CLEAVE_TABLE_GROUP.  Unknown names list the known ones; values are checked against their range.
+ */
+CLEAVE_API int32_t cleave_body_set_real(cleave_model* model, int64_t body, const char* group,
+                                        const char* name, double value);
+CLEAVE_API int32_t cleave_body_set_choice(cleave_model* model, int64_t body, const char* group,
+                                          const char* name, const char* choice);
 /* Value in force, default or set; after set-up also for defaults computed from others. */
-CLEAVE_API int32_t cleave_body_get_real(cleave_model* model, int64_t body, const char* group, const char* name,
-                                        double* value);
+CLEAVE_API int32_t cleave_body_get_real(cleave_model* model, int64_t body, const char* group,
+                                        const char* name, double* value);
 
-/* Prescribed degrees of freedom, before cleave_model_setup; replaces an earlier list.  A particle and
- * direction may occur once.  Bonds whose ends are both prescribed in every direction of the body's
- * dimension, or both listed in cleave_body_exempt, are never broken.
- * [in] particle, direction (n): direction 0, 1, 2    [in] motion (n): enum cleave_motion */
-CLEAVE_API int32_t cleave_body_prescribe(cleave_model* model, int64_t body, int64_t count, const int64_t* particle,
-                                         const int32_t* direction, const int32_t* motion);
-/* Particles of a zone without fracture: bonds with both ends in the list are exempt.  Before set-up; adds up. */
-CLEAVE_API int32_t cleave_body_exempt(cleave_model* model, int64_t body, int64_t count, const int64_t* particle);
+/* Prescribed degrees of freedom, before cleave_model_setup; replaces an earlier list.  A particle
+ * and direction may occur once.  Bonds whose ends are both prescribed in every direction of the
+ * body's dimension, or both listed in cleave_body_exempt, are never broken. [in] particle,
+ * direction (n): direction 0, 1, 2    [in] motion (n): enum cleave_motion */
+CLEAVE_API int32_t cleave_body_prescribe(cleave_model* model, int64_t body, int64_t count,
+                                         const int64_t* particle, const int32_t* direction,
+                                         const int32_t* motion);
+/* Particles of a zone without fracture: bonds with both ends in the list are exempt.  Before
+ * set-up; adds up. */
+CLEAVE_API int32_t cleave_body_exempt(cleave_model* model, int64_t body, int64_t count,
+                                      const int64_t* particle);
 
-/* Checks everything and builds bonds, masses and fields.  Errors name the body and the parameter. */
+/* Checks everything and builds bonds, masses and fields.  Errors name the body and the parameter.
+ */
 CLEAVE_API int32_t cleave_model_setup(cleave_model* model);
 
 /* Breaks bonds without an event and without energy: pre-cracks.  After set-up, before the first
- * step.  [in] pairs (2,n): particles at the ends, any order; BAD_ARGUMENT if they are not bonded. */
-CLEAVE_API int32_t cleave_body_precrack(cleave_model* model, int64_t body, int64_t count, const int64_t* pairs);
+ * step.  [in] pairs (2,n): particles at the ends, any order; BAD_ARGUMENT if they are not bonded.
+ */
+CLEAVE_API int32_t cleave_body_precrack(cleave_model* model, int64_t body, int64_t count,
+                                        const int64_t* pairs);
 
 /* Largest step that the formulations call stable, with their safety [s].   theory: time step */
 CLEAVE_API int32_t cleave_model_stable_step(cleave_model* model, double* step);
@@ -302,12 +321,12 @@ CLEAVE_API int32_t cleave_body_wave_speed(cleave_model* model, int64_t body, dou
  *     cleave_body_motion(...)                accelerations at t_new
  *     cleave_model_update()                  break, gradient, stress, forces, a = f/m, v += dt/2 a
  *
- * displacement (n), acceleration (n) are in the order of cleave_body_prescribe; either may be NULL to
- * leave the values as they are.  Only the displacement of CLEAVE_MOTION_EXACT entries is used.  For
- * those pass as acceleration (u(t+dt) - 2 u(t) + u(t-dt))/dt^2 of the curve at the t of the update, with
- * the next step's dt: then v(t+dt/2) is exactly (u(t+dt) - u(t))/dt. */
-CLEAVE_API int32_t cleave_body_motion(cleave_model* model, int64_t body, int64_t count, const double* displacement,
-                                      const double* acceleration);
+ * displacement (n), acceleration (n) are in the order of cleave_body_prescribe; either may be NULL
+ * to leave the values as they are.  Only the displacement of CLEAVE_MOTION_EXACT entries is used.
+ * For those pass as acceleration (u(t+dt) - 2 u(t) + u(t-dt))/dt^2 of the curve at the t of the
+ * update, with the next step's dt: then v(t+dt/2) is exactly (u(t+dt) - u(t))/dt. */
+CLEAVE_API int32_t cleave_body_motion(cleave_model* model, int64_t body, int64_t count,
+                                      const double* displacement, const double* acceleration);
 CLEAVE_API int32_t cleave_model_initialise(cleave_model* model, double time);
 CLEAVE_API int32_t cleave_model_advance(cleave_model* model, double dt, double time_new);
 CLEAVE_API int32_t cleave_model_update(cleave_model* model);
@@ -315,69 +334,75 @@ CLEAVE_API int32_t cleave_model_update(cleave_model* model);
 /* Bonds broken by the steps since the last cleave_body_clear_events. */
 typedef struct cleave_event {
   int64_t size;
-  int64_t step;           /* number of the step that broke it, 1 = first */
-  int64_t first, second;  /* particles at the ends, first < second */
-  double time;            /* [s] end of that step */
-  double midpoint[3];     /* reference position of the middle [m] */
-  double criterion;       /* value of the criterion (bond strain) [1] */
-  double limit;           /* its critical value [1] */
-  double released;        /* energy released by this bond [J]; the sum over bonds is the ledger's */
+  int64_t step;          /* number of the step that broke it, 1 = first */
+  int64_t first, second; /* particles at the ends, first < second */
+  double time;           /* [s] end of that step */
+  double midpoint[3];    /* reference position of the middle [m] */
+  double criterion;      /* value of the criterion (bond strain) [1] */
+  double limit;          /* its critical value [1] */
+  double released;       /* energy released by this bond [J]; the sum over bonds is the ledger's */
 } cleave_event;
 CLEAVE_API int32_t cleave_body_event_count(cleave_model* model, int64_t body, int64_t* count);
-CLEAVE_API int32_t cleave_body_event_get(cleave_model* model, int64_t body, int64_t index, cleave_event* event);
+CLEAVE_API int32_t cleave_body_event_get(cleave_model* model, int64_t body, int64_t index,
+                                         cleave_event* event);
 CLEAVE_API int32_t cleave_body_clear_events(cleave_model* model, int64_t body);
 
-/* Energy ledger at the end of the last step [J] (2D: [J m-1]).  theory: energy audit, CBM section 7. */
+/* Energy ledger at the end of the last step [J] (2D: [J m-1]).  theory: energy audit, CBM
+ * section 7. */
 typedef struct cleave_energies {
   int64_t size;
-  double kinetic;            /* 1/2 m v^2 at t */
-  double kinetic_staggered;  /* 1/2 m v(t-dt/2).v(t+dt/2) */
-  double elastic;            /* stored in the particles */
-  double plastic;            /* plastic work */
-  double stabilisation;      /* stored by the hourglass stabilisation */
-  double fracture;           /* released by breaking bonds */
-  double viscous;            /* dissipated by artificial viscosity */
-  double external;           /* work of external forces */
-  double reaction;           /* work of the forces that keep prescribed motion */
-  double internal;           /* work done against internal forces (trapezoid) */
-  double balance;            /* kinetic + stored + dissipated - work - the same at the start */
-  double identity;           /* discrete identity of the integrator, same form with `internal` */
-  double hourglass;          /* diagnostic E_hg [CBM theory 10], not part of the balance */
+  double kinetic;           /* 1/2 m v^2 at t */
+  double kinetic_staggered; /* 1/2 m v(t-dt/2).v(t+dt/2) */
+  double elastic;           /* stored in the particles */
+  double plastic;           /* plastic work */
+  double stabilisation;     /* stored by the hourglass stabilisation */
+  double fracture;          /* released by breaking bonds */
+  double viscous;           /* dissipated by artificial viscosity */
+  double external;          /* work of external forces */
+  double reaction;          /* work of the forces that keep prescribed motion */
+  double internal;          /* work done against internal forces (trapezoid) */
+  double balance;           /* kinetic + stored + dissipated - work - the same at the start */
+  double identity;          /* discrete identity of the integrator, same form with `internal` */
+  double hourglass;         /* diagnostic E_hg [CBM theory 10], not part of the balance */
 } cleave_energies;
 /* body = -1: sum over all bodies. */
-CLEAVE_API int32_t cleave_energies_get(cleave_model* model, int64_t body, cleave_energies* energies);
+CLEAVE_API int32_t cleave_energies_get(cleave_model* model, int64_t body,
+                                       cleave_energies* energies);
 
 /* Counts for status lines. */
 typedef struct cleave_counts {
   int64_t size;
   int64_t particles, bonds, simplices;
-  int64_t broken;    /* bonds that met the criterion */
-  int64_t inert;     /* bonds that lost all their simplices otherwise, pre-cracks among them */
-  int64_t isolated;  /* particles without a live simplex */
-  int64_t inverted;  /* particles with det F <= 0 at the last update */
+  int64_t broken;   /* bonds that met the criterion */
+  int64_t inert;    /* bonds that lost all their simplices otherwise, pre-cracks among them */
+  int64_t isolated; /* particles without a live simplex */
+  int64_t inverted; /* particles with det F <= 0 at the last update */
 } cleave_counts;
 CLEAVE_API int32_t cleave_counts_get(cleave_model* model, int64_t body, cleave_counts* counts);
 /* Bytes held by the model. */
 CLEAVE_API int32_t cleave_model_memory(cleave_model* model, int64_t* bytes);
 
 /* Sum over the listed particles of the reaction (force that keeps the prescribed motion), [N]. */
-CLEAVE_API int32_t cleave_body_reaction(cleave_model* model, int64_t body, int64_t count, const int64_t* particle,
-                                        double force[3]);
+CLEAVE_API int32_t cleave_body_reaction(cleave_model* model, int64_t body, int64_t count,
+                                        const int64_t* particle, double force[3]);
 
 /* ---- fields of a body, after set-up.  Values of particles, bonds and simplices stand in the
- * order in which the caller gave particles and simplices (bonds: sorted by first, then second end). */
+ * order in which the caller gave particles and simplices (bonds: sorted by first, then second end).
+ */
 CLEAVE_API int32_t cleave_field_count(cleave_model* model, int64_t body, int64_t* count);
-CLEAVE_API int32_t cleave_field_get(cleave_model* model, int64_t body, int64_t index, cleave_field* field);
-CLEAVE_API int32_t cleave_field_find(cleave_model* model, int64_t body, const char* name, cleave_field* field);
+CLEAVE_API int32_t cleave_field_get(cleave_model* model, int64_t body, int64_t index,
+                                    cleave_field* field);
+CLEAVE_API int32_t cleave_field_find(cleave_model* model, int64_t body, const char* name,
+                                     cleave_field* field);
 /* values (components, last-first) */
-CLEAVE_API int32_t cleave_field_get_real(cleave_model* model, int64_t body, const char* name, int64_t first,
-                                         int64_t last, double* values);
-CLEAVE_API int32_t cleave_field_put_real(cleave_model* model, int64_t body, const char* name, int64_t first,
-                                         int64_t last, const double* values);
-CLEAVE_API int32_t cleave_field_get_integer(cleave_model* model, int64_t body, const char* name, int64_t first,
-                                            int64_t last, int64_t* values);
-CLEAVE_API int32_t cleave_field_put_integer(cleave_model* model, int64_t body, const char* name, int64_t first,
-                                            int64_t last, const int64_t* values);
+CLEAVE_API int32_t cleave_field_get_real(cleave_model* model, int64_t body, const char* name,
+                                         int64_t first, int64_t last, double* values);
+CLEAVE_API int32_t cleave_field_put_real(cleave_model* model, int64_t body, const char* name,
+                                         int64_t first, int64_t last, const double* values);
+CLEAVE_API int32_t cleave_field_get_integer(cleave_model* model, int64_t body, const char* name,
+                                            int64_t first, int64_t last, int64_t* values);
+CLEAVE_API int32_t cleave_field_put_integer(cleave_model* model, int64_t body, const char* name,
+                                            int64_t first, int64_t last, const int64_t* values);
 
 /* After all setup and state fields were put: rebuilds the caches and sets the clock.  Stepping then
  * continues as if it had never stopped, bit for bit. */

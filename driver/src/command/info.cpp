@@ -1,0 +1,79 @@
+#include "command/info.hpp"
+
+#include <variant>
+
+#include "command/table_text.hpp"
+#include "deck/number_text.hpp"
+#include "io/archive.hpp"
+#include "io/error.hpp"
+#include "io/results.hpp"
+
+namespace cleave::driver {
+namespace {
+
+// One line of a text that may be long (a whole deck travels in a checkpoint).
+std::string shortened(const std::string& text) {
+  constexpr std::size_t kLongest = 70;
+  const std::size_t line_end = text.find('\n');
+  if (line_end == std::string::npos && text.size() <= kLongest) return text;
+  return text.substr(0, std::min(line_end, kLongest)) + " ... (" + std::to_string(text.size()) +
+         " characters)";
+}
+
+std::string attribute_text(const io::AttributeValue& value) {
+  if (const auto* text = std::get_if<std::string>(&value)) return shortened(*text);
+  if (const auto* integer = std::get_if<std::int64_t>(&value)) return std::to_string(*integer);
+  return real_text(std::get<double>(value));
+}
+
+std::string describe_archive(const std::string& path) {
+  const io::ArchiveHeader archive = io::read_archive_header(path);
+  TextTable attributes{{"attribute", "value"}, {}};
+  for (const auto& [name, value] : archive.attributes)
+    attributes.rows.push_back({name, attribute_text(value)});
+  TextTable arrays{{"array", "units", "type", "components x count", "description"}, {}};
+  for (const io::ArrayInfo& array : archive.arrays)
+    arrays.rows.push_back(
+        {array.name, "[" + array.units + "]", array.is_integer ? "integer" : "real",
+         std::to_string(array.components) + " x " + std::to_string(array.size / array.components),
+         array.description});
+  return path + ": checkpoint\n\n" + to_text(attributes) + '\n' + to_text(arrays);
+}
+
+std::string variables_line(const char* kind, const std::vector<std::string>& names) {
+  if (names.empty()) return {};
+  std::string line = std::string(kind) + ":";
+  for (const std::string& name : names) line += " " + name;
+  return line + '\n';
+}
+
+std::string describe_results(const std::string& path) {
+  const io::ResultSummary s = io::summarise_results(path);
+  std::string text = path + ": results\ntitle: " + s.title + '\n';
+  text += "dimension " + std::to_string(s.dimension) + ", " + std::to_string(s.points) +
+          " particles, " + std::to_string(s.elements) + " elements\n";
+  text += std::to_string(s.times.size()) + " frames";
+  if (!s.times.empty())
+    text += ", time " + short_text(s.times.front()) + " to " + short_text(s.times.back());
+  return text + '\n' + variables_line("of particles", s.nodal) +
+         variables_line("of elements", s.element) + variables_line("global", s.global);
+}
+
+}  // namespace
+
+std::string file_description(const std::string& path) {
+  std::string not_a_checkpoint;
+  try {
+    return describe_archive(path);
+  } catch (const io::Error& error) {
+    not_a_checkpoint = error.what();
+  }
+  try {
+    return describe_results(path);
+  } catch (const io::Error& error) {
+    throw io::Error("cannot describe \"" + path + "\": neither a checkpoint (" + not_a_checkpoint +
+                    ") nor results (" + error.what() + ").");
+  }
+}
+
+}  // namespace cleave::driver

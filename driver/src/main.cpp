@@ -1,0 +1,190 @@
+// The program `cleave`: the grammar of its command line, and the one place where errors become exit
+// codes: 0 done, 1 the run failed, 2 bad input, 3 stopped on request with a checkpoint written.
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <functional>
+#include <iostream>
+
+#include "cleave/cleave.h"
+#include "command/deck_path.hpp"
+#include "command/info.hpp"
+#include "command/keys.hpp"
+#include "command/tables.hpp"
+#include "deck/nearest_name.hpp"
+#include "io/error.hpp"
+#include "io/namelist.hpp"
+#include "run/run.hpp"
+
+namespace {
+
+using namespace cleave::driver;
+
+enum ExitCode { kDone = 0, kRunFailed = 1, kBadInput = 2 };
+
+// What the words of the command line said.
+struct Words {
+  std::string deck, checkpoint, topic, table, file, format = "text";
+  RunOptions run;
+};
+
+int print(const std::string& text) {
+  std::cout << text;
+  return kDone;
+}
+
+TextFormat format_of(const Words& words) {
+  return words.format == "markdown" ? TextFormat::markdown : TextFormat::text;
+}
+
+void add_run_options(CLI::App& app, Words& words) {
+  app.add_option("--threads", words.run.threads,
+                 "threads of the kernels; results do not depend on it")
+      ->check(CLI::Range(1, 4096))
+      ->type_name("N");
+  app.add_flag("--quiet", words.run.quiet, "no progress lines");
+}
+
+using Action = std::function<int()>;
+
+// Adds `name`; its action is what main does when the command is given.
+CLI::App& add_command(CLI::App& app, Action& chosen, const std::string& name,
+                      const std::string& description, Action action) {
+  CLI::App& command = *app.add_subcommand(name, description);
+  command.callback([&chosen, action = std::move(action)] { chosen = action; });
+  return command;
+}
+
+void add_deck_commands(CLI::App& app, Words& words, Action& chosen) {
+  CLI::App& check = add_command(
+      app, chosen, "check", "read everything, print memory, step and estimated time, and stop",
+      [&words] { return check_deck(read_deck(existing_file(words.deck, "the deck")), words.run); });
+  check.add_option("DECK", words.deck, "deck (Fortran namelist)")->required();
+  add_run_options(check, words);
+
+  CLI::App& restart = add_command(
+      app, chosen, "restart",
+      "continue from a checkpoint, or from the newest good one of a directory", [&words] {
+        const std::string from = existing_path(words.checkpoint, "the checkpoint");
+        return restart_run(from, words.deck.empty() ? "" : existing_file(words.deck, "the deck"),
+                           words.run);
+      });
+  restart.add_option("CHECKPOINT", words.checkpoint, "checkpoint or directory")->required();
+  restart.add_option("--deck", words.deck, "deck to use instead of the one in the checkpoint")
+      ->type_name("DECK");
+  add_run_options(restart, words);
+}
+
+void add_listing_commands(CLI::App& app, Words& words, Action& chosen) {
+  CLI::App& keys =
+      add_command(app, chosen, "keys", "print the groups and keys of a deck", [&words] {
+        if (words.format == "names") return print(key_names());
+        return print(keys_listing(words.topic, format_of(words)));
+      });
+  keys.add_option("GROUP.KEY", words.topic, "only this group, or this key of it");
+  keys.add_option("--format", words.format, "text, markdown or names")
+      ->check(CLI::IsMember({"text", "markdown", "names"}))
+      ->type_name("FORMAT");
+
+  CLI::App& tables = add_command(app, chosen, "tables", "print a table of the library", [&words] {
+    return print(table_listing(words.table, format_of(words)));
+  });
+  tables.add_option("TABLE", words.table, listed(listed_tables()))->required();
+  tables.add_option("--format", words.format, "text or markdown")
+      ->check(CLI::IsMember({"text", "markdown"}))
+      ->type_name("FORMAT");
+}
+
+void add_file_commands(CLI::App& app, Words& words, Action& chosen) {
+  CLI::App& info = add_command(
+      app, chosen, "info", "describe a checkpoint or result file",
+      [&words] { return print(file_description(existing_file(words.file, "the file"))); });
+  info.add_option("FILE", words.file, "checkpoint, results or history")->required();
+
+  CLI::App& parse = add_command(app, chosen, "parse", "print any namelist file as JSON", [&words] {
+    const std::string path = existing_file(words.file, "the file");
+    return print(cleave::io::namelist::to_json(cleave::io::namelist::read(path)) + "\n");
+  });
+  parse.add_option("FILE", words.file, "namelist file")->required();
+}
+
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
+  return names;
+}
+
+// Wrong usage: what CLI11 says, and the nearest command or option to what was written.
+int refuse_usage(const CLI::App& app, const Words& words, const std::string& why) {
+  std::cerr << "cleave: " << why << '\n';
+  const CLI::App* used = &app;
+  if (!app.get_subcommands().empty()) used = app.get_subcommands().front();
+  std::vector<std::string> options;
+  for (const CLI::Option* option : used->get_options())
+    for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
+  for (const std::string& word : app.remaining(true)) {
+    const std::string nearest = nearest_name(word.substr(0, word.find('=')), options);
+    if (word.starts_with("--") && !nearest.empty())
+      std::cerr << "Did you mean " << nearest << "?\n";
+  }
+  const std::string command = nearest_name(words.deck, command_names(app));
+  if (used == &app && !command.empty())
+    std::cerr << "Did you mean \"cleave " << command << " ...\"?\n";
+  std::cerr << "Usage: cleave DECK | cleave " << listed(command_names(app))
+            << " ...; more with cleave --help\n";
+  return kBadInput;
+}
+
+int run_words(const CLI::App& app, const Words& words) {
+  if (words.deck.empty()) return refuse_usage(app, words, "no deck and no command is given.");
+  if (!std::filesystem::exists(words.deck) && !nearest_name(words.deck, command_names(app)).empty())
+    return refuse_usage(app, words, "\"" + words.deck + "\" is neither a command nor a file.");
+  return run_deck(read_deck(existing_file(words.deck, "the deck")), words.run);
+}
+
+int run_command_line(int argc, char** argv) {
+  Words words;
+  Action chosen;
+  CLI::App app(
+      "Cleave simulates impact and dynamic fracture of solids with particle methods.\n"
+      "`cleave DECK` runs a deck.",
+      "cleave");
+  app.set_version_flag("--version", std::string("cleave ") + cleave_version());
+  app.require_subcommand(0, 1);
+  app.add_option("DECK", words.deck, "deck to run (Fortran namelist)");
+  add_run_options(app, words);
+  add_deck_commands(app, words, chosen);
+  add_listing_commands(app, words, chosen);
+  add_file_commands(app, words, chosen);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    return refuse_usage(app, words, error.what());
+  }
+  return chosen ? chosen() : run_words(app, words);
+}
+
+int report(int code, const std::string& message) {
+  std::cerr << "cleave: " << message << '\n';
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run_command_line(argc, argv);
+  } catch (const DeckError& error) {
+    return report(kBadInput, error.what());
+  } catch (const cleave::io::Error& error) {
+    return report(kBadInput, error.what());
+  } catch (const RunError& error) {
+    return report(kRunFailed, error.what());
+  } catch (const std::bad_alloc&) {
+    return report(kRunFailed, "out of memory. `cleave check DECK` says how much a run needs.");
+  } catch (const std::exception& error) {
+    return report(kRunFailed,
+                  std::string("an error inside the program; please report it: ") + error.what());
+  }
+}

@@ -1,0 +1,236 @@
+#include "run/history_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "run/components.hpp"
+#include "scene/format.hpp"
+#include "scene/unit_text.hpp"
+
+namespace cleave::driver {
+namespace {
+
+using Index = std::int64_t;
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+struct EnergyColumn {
+  const char* name;
+  double cleave_energies::*value;
+  const char* description;
+};
+constexpr EnergyColumn kEnergies[] = {
+    {"kinetic", &cleave_energies::kinetic, "kinetic energy"},
+    {"elastic", &cleave_energies::elastic, "stored elastic energy"},
+    {"plastic", &cleave_energies::plastic, "plastic work"},
+    {"stabilisation", &cleave_energies::stabilisation, "energy stored by the stabilisation"},
+    {"fracture", &cleave_energies::fracture, "energy released by breaking bonds"},
+    {"viscous", &cleave_energies::viscous, "energy dissipated by artificial viscosity"},
+    {"external", &cleave_energies::external, "work of external forces"},
+    {"reaction", &cleave_energies::reaction, "work of the forces that keep prescribed motion"},
+    {"internal", &cleave_energies::internal, "work done against internal forces"},
+    {"balance", &cleave_energies::balance, "error of the energy balance"},
+    {"identity", &cleave_energies::identity, "error of the integrator's discrete identity"},
+    {"hourglass", &cleave_energies::hourglass, "hourglass diagnostic, not part of the balance"}};
+
+struct CountColumn {
+  const char* name;
+  std::int64_t cleave_counts::*value;
+  const char* description;
+};
+constexpr CountColumn kCounts[] = {
+    {"broken", &cleave_counts::broken, "bonds that met the fracture criterion"},
+    {"inert", &cleave_counts::inert, "bonds that lost all their simplices otherwise"},
+    {"isolated", &cleave_counts::isolated, "particles without a live simplex"},
+    {"inverted", &cleave_counts::inverted, "particles with det F <= 0"}};
+
+Index nearest_particle(const BodyGeometry& body, const std::vector<double>& point) {
+  Index nearest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (Index i = 0; i < body.particles(); ++i) {
+    double square = 0;
+    for (std::size_t k = 0; k < point.size(); ++k) {
+      square += std::pow(body.X[at(3 * i) + k] - point[k], 2);
+    }
+    if (square < least) {
+      least = square;
+      nearest = i;
+    }
+  }
+  return nearest;
+}
+
+}  // namespace
+
+HistoryFile::HistoryFile(const Scene& scene) : units_(scene.deck().one("run").text("units")) {
+  const UnitText units(units_);
+  add_column("step", "1", "number of steps done", true);
+  add_column("time", units("s"), "time");
+  for (const EnergyColumn& energy : kEnergies) {
+    add_column(energy.name, units("J"), energy.description);
+  }
+  for (const CountColumn& count : kCounts) add_column(count.name, "1", count.description, true);
+  for (const char axis : {'x', 'y', 'z'}) {
+    add_column(std::string("momentum_") + axis, units("kg m s-1"), "momentum of all particles");
+  }
+  add_loads(scene);
+  for (const DeckGroup* probe : scene.deck().all("probe")) add_probe(scene, *probe);
+  for (Index body = 0; body < scene.model().bodies(); ++body) {
+    mass_.push_back(scene.model().reals(body, "mass"));
+  }
+}
+
+void HistoryFile::add_column(const std::string& name, const std::string& units,
+                             const std::string& text, bool is_integer) {
+  columns_.push_back({name, units, text, is_integer});
+}
+
+void HistoryFile::add_loads(const Scene& scene) {
+  const UnitText units(units_);
+  for (const Motions::Reaction& reaction : scene.motions().reaction_columns()) {
+    for (const int direction : reaction.directions) {
+      add_column("reaction_" + reaction.load + "_" + "xyz"[direction], units("N"),
+                 "force that keeps the prescribed motion of load " + reaction.load);
+    }
+  }
+  for (const Forces::Resultant& resultant : scene.forces().resultants()) {
+    for (const int direction : resultant.directions) {
+      add_column("force_" + resultant.load + "_" + "xyz"[direction], units("N"),
+                 "sum of the forces of load " + resultant.load);
+    }
+  }
+}
+
+void HistoryFile::add_probe(const Scene& scene, const DeckGroup& group) {
+  const Deck& deck = scene.deck();
+  const std::string& name = group.text("name");
+  const auto& point = group.reals("point");
+  if (point.empty() == group.text("set").empty()) {
+    deck.fail(group, "a probe needs either point or set");
+  }
+  if (!point.empty() && point.size() != 2 && point.size() != 3) {
+    deck.fail(group, "point", "a point has 2 or 3 numbers; here " + std::to_string(point.size()));
+  }
+  const std::vector<Index> bodies = scene.sets().bodies(group);
+  if (bodies.size() > 1) {
+    deck.fail(group, "body", "there are several bodies; name the one to probe");
+  }
+  const Index body = bodies.front();
+  const auto field = scene.model().find_field(body, group.text("field"));
+  if (!field || field->relation != CLEAVE_RELATION_POINT) {
+    std::vector<std::string> known;
+    for (const cleave_field& other : scene.model().fields(body)) {
+      if (other.relation == CLEAVE_RELATION_POINT) known.push_back(other.name);
+    }
+    deck.fail(group, "field",
+              quoted(group.text("field")) + " is not a field of particles; known: " + list(known));
+  }
+  const BodyGeometry& geometry = scene.bodies()[at(body)];
+  Probe probe{body, field->name, field->type == CLEAVE_INTEGER, field->components, {}, {}, {}};
+  if (!point.empty()) {
+    probe.particles = {nearest_particle(geometry, point)};
+    probe.weights = {1.0};
+  } else {
+    probe.particles = scene.sets().select(group).front().particles;
+    const auto mass = scene.model().reals(body, "mass");
+    double total = 0;
+    for (const Index particle : probe.particles) total += mass[at(particle)];
+    for (const Index particle : probe.particles) probe.weights.push_back(mass[at(particle)] / total);
+  }
+  const UnitText units(units_);
+  for (const Component& component : components_of(field->components, geometry.dimension == 2)) {
+    const std::string column = name + component.suffix;
+    for (const io::Column& other : columns_) {
+      if (other.name == column) {
+        deck.fail(group, "name",
+                  "the history already has a column " + quoted(column) + "; choose another name");
+      }
+    }
+    probe.written.push_back(component.index);
+    add_column(column, units(field->units),
+               std::string(field->description) +
+                   (point.empty() ? ", mean over set " + group.text("set")
+                                  : " at particle " +
+                                        number(geometry.point_ids[at(probe.particles.front())])));
+  }
+  probes_.push_back(std::move(probe));
+}
+
+std::string HistoryFile::csv_path(const FileNames& names, const Scene& scene) const {
+  return scene.deck().one("history").logical("csv") ? names.history_csv() : "";
+}
+
+void HistoryFile::create(const FileNames& names, const Scene& scene, const Clock& clock) {
+  table_ = io::RecordTable::create(names.history(), csv_path(names, scene), columns_,
+                                   {{"title", scene.deck().one("run").text("title")},
+                                    {"cleave_version", cleave_version()},
+                                    {"units", units_},
+                                    {"time_step", number(clock.dt, 17)}});
+}
+
+void HistoryFile::reopen(const FileNames& names, const Scene& scene, Index records) {
+  table_ = io::RecordTable::reopen(names.history(), csv_path(names, scene), columns_, records);
+}
+
+void HistoryFile::write(Scene& scene, Index step, double time) {
+  Model& model = scene.model();
+  record_.clear();
+  record_.push_back(static_cast<double>(step));
+  record_.push_back(time);
+  const cleave_energies energies = model.energies();
+  for (const EnergyColumn& energy : kEnergies) record_.push_back(energies.*energy.value);
+  const cleave_counts counts = model.total_counts();
+  for (const CountColumn& count : kCounts) {
+    record_.push_back(static_cast<double>(counts.*count.value));
+  }
+  add_momentum(model);
+  for (const Motions::Reaction& reaction : scene.motions().reactions(model)) {
+    for (const int direction : reaction.directions) record_.push_back(reaction.force[direction]);
+  }
+  for (const Forces::Resultant& resultant : scene.forces().resultants()) {
+    for (const int direction : resultant.directions) record_.push_back(resultant.force[direction]);
+  }
+  for (const Probe& probe : probes_) add_probe_values(model, probe);
+  table_->append(record_);
+}
+
+void HistoryFile::add_momentum(const Model& model) {
+  double sum[3] = {0, 0, 0};
+  for (Index body = 0; body < model.bodies(); ++body) {
+    const std::vector<double>& mass = mass_[at(body)];
+    real_.resize(3 * mass.size());
+    model.get(body, "velocity", real_);
+    for (std::size_t i = 0; i < mass.size(); ++i) {
+      for (std::size_t k = 0; k < 3; ++k) sum[k] += mass[i] * real_[3 * i + k];
+    }
+  }
+  record_.insert(record_.end(), sum, sum + 3);
+}
+
+void HistoryFile::add_probe_values(const Model& model, const Probe& probe) {
+  const bool single = probe.particles.size() == 1;
+  const Index first = single ? probe.particles.front() : 0;
+  const Index last = single ? first + 1 : static_cast<Index>(mass_[at(probe.body)].size());
+  const std::size_t size = at((last - first) * probe.components);
+  real_.resize(size);
+  if (probe.integer) {
+    integer_.resize(size);
+    check(cleave_field_get_integer(model.handle(), probe.body, probe.field.c_str(), first, last,
+                                   integer_.data()));
+    std::copy(integer_.begin(), integer_.end(), real_.begin());
+  } else {
+    check(cleave_field_get_real(model.handle(), probe.body, probe.field.c_str(), first, last,
+                                real_.data()));
+  }
+  for (const Index component : probe.written) {
+    double mean = 0;
+    for (std::size_t k = 0; k < probe.particles.size(); ++k) {
+      const std::size_t entry = at((probe.particles[k] - first) * probe.components + component);
+      mean += probe.weights[k] * real_[entry];
+    }
+    record_.push_back(mean);
+  }
+}
+
+}  // namespace cleave::driver

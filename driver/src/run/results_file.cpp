@@ -1,0 +1,208 @@
+#include "run/results_file.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+
+#include "run/components.hpp"
+#include "scene/format.hpp"
+#include "scene/unit_text.hpp"
+
+namespace cleave::driver {
+namespace {
+
+using Index = std::int64_t;
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+bool in_results(const cleave_field& field) {
+  return field.relation == CLEAVE_RELATION_POINT || field.relation == CLEAVE_RELATION_SIMPLEX;
+}
+
+// Fields of all bodies, each name once.
+std::vector<cleave_field> all_fields(const Scene& scene) {
+  std::vector<cleave_field> fields;
+  std::set<std::string> names;
+  for (Index body = 0; body < scene.model().bodies(); ++body) {
+    for (const cleave_field& field : scene.model().fields(body)) {
+      if (names.insert(field.name).second) fields.push_back(field);
+    }
+  }
+  return fields;
+}
+
+std::vector<cleave_field> chosen_fields(const Scene& scene) {
+  const std::vector<cleave_field> all = all_fields(scene);
+  const DeckGroup& output = scene.deck().one("output");
+  const auto is = [](const std::string& name) {
+    return [&name](const cleave_field& field) { return name == field.name; };
+  };
+  std::vector<cleave_field> chosen;
+  // What readers need in any case: the displacement and which simplices are deleted.
+  for (const std::string name : {"displacement", "simplex_alive"}) {
+    const auto field = std::find_if(all.begin(), all.end(), is(name));
+    if (field != all.end()) chosen.push_back(*field);
+  }
+  if (output.texts("fields").empty()) {
+    for (const cleave_field& field : all) {
+      if (field.output != 0 && in_results(field)) chosen.push_back(field);
+    }
+  }
+  for (const std::string& name : output.texts("fields")) {
+    const auto field = std::find_if(all.begin(), all.end(), is(name));
+    if (field == all.end() || !in_results(*field)) {
+      std::vector<std::string> known;
+      for (const cleave_field& other : all) {
+        if (in_results(other)) known.push_back(other.name);
+      }
+      scene.deck().fail(output, "fields",
+                        quoted(name) + (field == all.end()
+                                            ? " is not a field of this run"
+                                            : " is not a field of particles or simplices") +
+                            "; fields that can be written: " + list(known));
+    }
+    chosen.push_back(*field);
+  }
+  std::vector<cleave_field> once;
+  for (const cleave_field& field : chosen) {
+    if (std::none_of(once.begin(), once.end(), is(field.name))) once.push_back(field);
+  }
+  return once;
+}
+
+void add_meshes(const Scene& scene, io::ResultLayout& layout) {
+  Index first = 0;
+  for (std::size_t b = 0; b < scene.bodies().size(); ++b) {
+    const BodyGeometry& body = scene.bodies()[b];
+    layout.points.insert(layout.points.end(), body.X.begin(), body.X.end());
+    layout.point_ids.insert(layout.point_ids.end(), body.point_ids.begin(), body.point_ids.end());
+    io::ResultBlock block{body.name,
+                          body.dimension == 2 ? io::CellKind::triangle : io::CellKind::tetrahedron,
+                          body.simplices};
+    for (Index& node : block.nodes) node += first;
+    layout.blocks.push_back(std::move(block));
+    for (const NamedSet& set : scene.sets().of_body(static_cast<Index>(b))) {
+      auto group = std::find_if(layout.node_sets.begin(), layout.node_sets.end(),
+                                [&](const io::MeshGroup& g) { return g.name == set.name; });
+      if (group == layout.node_sets.end()) {
+        layout.node_sets.push_back({set.name, 0, {}, {}});
+        group = layout.node_sets.end() - 1;
+      }
+      for (const Index particle : set.particles) group->nodes.push_back(first + particle);
+    }
+    first += body.particles();
+  }
+  // Two bodies of one mesh, or of two meshes that both count from 1, share numbers.
+  const std::set<Index> different(layout.point_ids.begin(), layout.point_ids.end());
+  if (different.size() != layout.point_ids.size()) {
+    std::iota(layout.point_ids.begin(), layout.point_ids.end(), 1);
+  }
+}
+
+struct Global {
+  const char* name;
+  double cleave_energies::*value;
+};
+constexpr Global kGlobals[] = {{"kinetic", &cleave_energies::kinetic},
+                               {"elastic", &cleave_energies::elastic},
+                               {"plastic", &cleave_energies::plastic},
+                               {"fracture", &cleave_energies::fracture},
+                               {"viscous", &cleave_energies::viscous},
+                               {"external", &cleave_energies::external},
+                               {"reaction", &cleave_energies::reaction},
+                               {"balance", &cleave_energies::balance}};
+
+}  // namespace
+
+ResultsFile::ResultsFile(const Scene& scene) {
+  const DeckGroup& run = scene.deck().one("run");
+  layout_.title = run.text("title").empty() ? "Cleave" : run.text("title");
+  layout_.dimension = 3;  // also for plane bodies: readers then see displacements as vectors
+  add_meshes(scene, layout_);
+  for (const cleave_field& field : chosen_fields(scene)) add_field(scene, field);
+  const UnitText units(run.text("units"));
+  for (const Global& global : kGlobals) {
+    layout_.global.push_back({global.name, units("J"), std::string("energy: ") + global.name});
+  }
+  layout_.information = {{"cleave_version", cleave_version()},
+                         {"units", run.text("units")},
+                         {"deck", scene.deck().source.path}};
+  nodal_values_.assign(layout_.nodal.size(), std::vector<double>(layout_.point_ids.size()));
+  Index elements = 0;
+  for (const io::ResultBlock& block : layout_.blocks) {
+    elements += static_cast<Index>(block.nodes.size()) / static_cast<Index>(block.kind);
+  }
+  element_values_.assign(layout_.element.size(), std::vector<double>(at(elements)));
+}
+
+void ResultsFile::add_field(const Scene& scene, const cleave_field& field) {
+  const bool plane =
+      std::all_of(scene.bodies().begin(), scene.bodies().end(),
+                  [](const BodyGeometry& body) { return body.dimension == 2; });
+  const bool nodal = field.relation == CLEAVE_RELATION_POINT;
+  const UnitText units(scene.deck().one("run").text("units"));
+  Source source{field.name, field.type == CLEAVE_INTEGER, field.components, {}};
+  for (const Component& component : components_of(field.components, plane)) {
+    std::string name = field.name + component.suffix;
+    if (source.field == "displacement") name = std::string("DISPL") + "XYZ"[component.index];
+    if (source.field == "simplex_alive") name = "status";
+    source.written.push_back(component.index);
+    (nodal ? layout_.nodal : layout_.element)
+        .push_back({name, units(field.units), field.description});
+  }
+  (nodal ? nodal_ : element_).push_back(std::move(source));
+}
+
+void ResultsFile::create(const std::string& path) {
+  writer_ = io::ResultsWriter::create(path, layout_);
+}
+
+void ResultsFile::reopen(const std::string& path, Index frames) {
+  writer_ = io::ResultsWriter::reopen(path, layout_, frames);
+}
+
+void ResultsFile::fill(const Scene& scene, const Source& source,
+                       std::vector<std::vector<double>>& variables, std::size_t first) {
+  std::size_t begin = 0;  // of the body among all particles or simplices
+  for (Index body = 0; body < scene.model().bodies(); ++body) {
+    const BodyGeometry& geometry = scene.bodies()[at(body)];
+    const bool nodal = &variables == &nodal_values_;
+    const std::size_t count = at(nodal ? geometry.particles() : geometry.simplex_count());
+    const bool present = scene.model().find_field(body, source.field).has_value();
+    const std::size_t size = count * at(source.components);
+    real_.assign(size, 0.0);  // a body without this field shows zero
+    if (present && source.integer) {
+      integer_.resize(size);
+      scene.model().get(body, source.field.c_str(), integer_);
+      std::copy(integer_.begin(), integer_.end(), real_.begin());
+    } else if (present) {
+      scene.model().get(body, source.field.c_str(), real_);
+    }
+    for (std::size_t k = 0; k < source.written.size(); ++k) {
+      std::vector<double>& variable = variables[first + k];
+      for (std::size_t i = 0; i < count; ++i) {
+        variable[begin + i] = real_[i * at(source.components) + at(source.written[k])];
+      }
+    }
+    begin += count;
+  }
+}
+
+void ResultsFile::write_frame(const Scene& scene, double time) {
+  std::size_t first = 0;
+  for (const Source& source : nodal_) {
+    fill(scene, source, nodal_values_, first);
+    first += source.written.size();
+  }
+  first = 0;
+  for (const Source& source : element_) {
+    fill(scene, source, element_values_, first);
+    first += source.written.size();
+  }
+  const cleave_energies energies = scene.model().energies();
+  std::vector<double> globals;
+  for (const Global& global : kGlobals) globals.push_back(energies.*global.value);
+  writer_->write_frame(time, nodal_values_, element_values_, globals);
+}
+
+}  // namespace cleave::driver

@@ -1,0 +1,198 @@
+#include "scene/forces.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/format.hpp"
+#include "scene/motions.hpp"
+#include "scene/surface.hpp"
+
+namespace cleave::driver {
+namespace {
+
+using Index = std::int64_t;
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+bool is_force(const std::string& kind) {
+  return kind == "force" || kind == "traction" || kind == "pressure" || kind == "body_force" ||
+         kind == "gravity";
+}
+
+// Reference area of the facets, shared equally by their corners.
+void area_weights(const BodyGeometry& body, const std::vector<Index>& facets,
+                  std::vector<Index>& particles, std::vector<double>& weights) {
+  std::vector<double> all(at(body.particles()), 0.0);
+  const auto corners = at(body.dimension);
+  for (std::size_t f = 0; f < facets.size(); f += corners) {
+    const double* x[3] = {};
+    for (std::size_t a = 0; a < corners; ++a) x[a] = &body.X[at(3 * facets[f + a])];
+    double area[3];
+    area_vector(body.dimension, x, area);
+    const double size =
+        std::hypot(area[0], area[1], area[2]) / static_cast<double>(corners);
+    for (std::size_t a = 0; a < corners; ++a) all[at(facets[f + a])] += size;
+  }
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i] > 0) {
+      particles.push_back(static_cast<Index>(i));
+      weights.push_back(all[i]);
+    }
+  }
+}
+
+std::vector<double> gathered(const std::vector<double>& field, const std::vector<Index>& particles) {
+  std::vector<double> values;
+  values.reserve(particles.size());
+  for (const Index particle : particles) values.push_back(field[at(particle)]);
+  return values;
+}
+
+}  // namespace
+
+Forces::Forces(const Deck& deck, const std::vector<BodyGeometry>& bodies, const Sets& sets,
+               const Model& model)
+    : loaded_(bodies.size(), 0), pressed_(bodies.size(), 0) {
+  for (const BodyGeometry& body : bodies) geometry_.push_back(&body);
+  for (const DeckGroup* group : deck.all("load")) {
+    if (is_force(group->text("kind"))) add(deck, bodies, sets, model, *group);
+  }
+  external_.resize(bodies.size());
+  position_.resize(bodies.size());
+  for (std::size_t body = 0; body < bodies.size(); ++body) {
+    if (loaded_[body] != 0) external_[body].resize(bodies[body].X.size());
+    if (pressed_[body] != 0) position_[body].resize(bodies[body].X.size());
+  }
+}
+
+void Forces::add(const Deck& deck, const std::vector<BodyGeometry>& bodies, const Sets& sets,
+                 const Model& model, const DeckGroup& group) {
+  const std::string& kind = group.text("kind");
+  const bool on_all = kind == "body_force" || kind == "gravity";
+  if (group.text("set").empty() && !on_all) {
+    deck.fail(group, "set", "kind = " + quoted(kind) + " needs the set it acts on");
+  }
+  if (group.given("prescription")) {
+    deck.fail(group, "prescription",
+              "prescription belongs to displacement, velocity and acceleration, not to kind = " +
+                  quoted(kind));
+  }
+  const std::vector<Selection> selections = sets.select(group);
+  Load load{group.real("value"), Curve::of_load(deck, group), {}, {}, 0};
+  std::vector<int> directions{0, 1, 2};
+  if (kind == "pressure") {
+    if (!group.text("directions").empty()) {
+      deck.fail(group, "directions", "a pressure acts along the normal; remove directions");
+    }
+    const bool plane = bodies[at(selections.front().body)].dimension == 2;
+    if (plane) directions.pop_back();
+  } else {
+    directions = load_directions(deck, group, bodies, selections);
+  }
+  double total_mass = 0;
+  Index facet_count = 0;
+  for (const Selection& selection : selections) {
+    const BodyGeometry& body = bodies[at(selection.body)];
+    loaded_[at(selection.body)] = 1;
+    if (kind == "pressure") {
+      pressed_[at(selection.body)] = 1;
+      load.surfaces.push_back({selection.body, surface_facets(body, selection.particles)});
+      facet_count += static_cast<Index>(load.surfaces.back().facets.size());
+      continue;
+    }
+    Dead dead{selection.body, {}, {}, 0};
+    if (kind == "traction") {
+      const auto facets = surface_facets(body, selection.particles);
+      facet_count += static_cast<Index>(facets.size());
+      area_weights(body, facets, dead.particle, dead.weight);
+    } else {
+      const char* field = kind == "body_force" ? "averaging_volume" : "mass";
+      dead.particle = selection.particles;
+      dead.weight = gathered(model.reals(selection.body, field), selection.particles);
+    }
+    for (const double weight : dead.weight) dead.sum += weight;
+    total_mass += dead.sum;
+    load.dead.push_back(std::move(dead));
+  }
+  if ((kind == "pressure" || kind == "traction") && facet_count == 0) {
+    deck.fail(group, "set",
+              "the set " + quoted(group.text("set")) +
+                  " holds no whole facet of the surface, so a " + kind +
+                  " has nothing to act on; all particles of a facet must be in the set");
+  }
+  if (kind == "force") {
+    for (Dead& dead : load.dead) {
+      for (double& weight : dead.weight) weight /= total_mass;
+      dead.sum /= total_mass;
+    }
+  }
+  loads_.push_back(std::move(load));
+  resultants_.push_back({load_name(deck, group), directions, {0, 0, 0}});
+}
+
+void Forces::apply(Model& model, double time) {
+  if (loads_.empty()) return;
+  bool changed = fresh_;
+  for (Load& load : loads_) {
+    const double amount = load.value * load.curve.factor(time);
+    changed = changed || amount != load.amount || (!load.surfaces.empty() && amount != 0);
+    load.amount = amount;
+  }
+  if (!changed) return;
+  fresh_ = false;
+  find_positions(model);
+  for (std::vector<double>& force : external_) std::fill(force.begin(), force.end(), 0.0);
+  for (std::size_t i = 0; i < loads_.size(); ++i) {
+    std::fill_n(resultants_[i].force, 3, 0.0);
+    add_dead(i);
+    add_pressure(i);
+  }
+  for (std::size_t body = 0; body < external_.size(); ++body) {
+    if (loaded_[body] != 0) model.put(static_cast<Index>(body), "external_force", external_[body]);
+  }
+}
+
+void Forces::add_dead(std::size_t index) {
+  const Load& load = loads_[index];
+  for (const Dead& dead : load.dead) {
+    std::vector<double>& force = external_[at(dead.body)];
+    for (const int direction : resultants_[index].directions) {
+      for (std::size_t k = 0; k < dead.particle.size(); ++k) {
+        force[at(3 * dead.particle[k] + direction)] += load.amount * dead.weight[k];
+      }
+      resultants_[index].force[direction] += load.amount * dead.sum;
+    }
+  }
+}
+
+void Forces::add_pressure(std::size_t index) {
+  const Load& load = loads_[index];
+  for (const Surface& surface : load.surfaces) {
+    const int dimension = geometry_[at(surface.body)]->dimension;
+    const auto corners = at(dimension);
+    const std::vector<double>& position = position_[at(surface.body)];
+    std::vector<double>& force = external_[at(surface.body)];
+    for (std::size_t f = 0; f < surface.facets.size(); f += corners) {
+      const double* x[3] = {};
+      for (std::size_t a = 0; a < corners; ++a) x[a] = &position[at(3 * surface.facets[f + a])];
+      double area[3];
+      area_vector(dimension, x, area);
+      for (int k = 0; k < 3; ++k) {
+        const double share = -load.amount * area[k] / dimension;
+        for (std::size_t a = 0; a < corners; ++a) force[at(3 * surface.facets[f + a] + k)] += share;
+        resultants_[index].force[k] += share * dimension;
+      }
+    }
+  }
+}
+
+void Forces::find_positions(const Model& model) {
+  for (std::size_t body = 0; body < position_.size(); ++body) {
+    if (pressed_[body] == 0) continue;
+    std::vector<double>& position = position_[body];
+    model.get(static_cast<Index>(body), "displacement", position);
+    for (std::size_t i = 0; i < position.size(); ++i) position[i] += geometry_[body]->X[i];
+  }
+}
+
+}  // namespace cleave::driver

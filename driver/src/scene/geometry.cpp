@@ -1,0 +1,271 @@
+#include "scene/geometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <map>
+
+#include "scene/format.hpp"
+#include "io/error.hpp"
+#include "io/lattice.hpp"
+#include "io/mesh.hpp"
+#include "scene/split.hpp"
+
+namespace cleave::driver {
+namespace {
+
+using Index = std::int64_t;
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+io::LatticeSpec lattice_spec(const DeckGroup& group) {
+  static const std::map<std::string, io::LatticeKind> kinds{
+      {"square", io::LatticeKind::square}, {"hexagonal", io::LatticeKind::hexagonal},
+      {"cubic", io::LatticeKind::cubic},   {"bcc", io::LatticeKind::bcc},
+      {"fcc", io::LatticeKind::fcc}};
+  static const std::map<std::string, io::ShapeKind> shapes{{"block", io::ShapeKind::block},
+                                                           {"cylinder", io::ShapeKind::cylinder},
+                                                           {"sphere", io::ShapeKind::sphere}};
+  io::LatticeSpec spec;
+  spec.lattice = kinds.at(group.text("type"));
+  spec.shape = shapes.at(group.text("shape"));
+  spec.spacing = group.real("spacing");
+  const auto& origin = group.reals("origin");
+  const auto& size = group.reals("size");
+  std::copy_n(origin.begin(), 3, spec.origin.begin());
+  std::copy_n(size.begin(), 3, spec.size.begin());
+  spec.radius = group.real("radius");
+  spec.height = group.real("height");
+  spec.axis = group.text("axis")[0] - 'x';
+  return spec;
+}
+
+io::Mesh mesh_of(const Deck& deck, const DeckGroup& group) {
+  namespace fs = std::filesystem;
+  if (group.name == "lattice") {
+    try {
+      return io::make_lattice(lattice_spec(group));
+    } catch (const io::Error& error) {
+      deck.fail(group, error.what());
+    }
+  }
+  const fs::path file(group.text("file"));
+  const fs::path path = file.is_absolute() ? file : fs::path(deck.source.path).parent_path() / file;
+  try {
+    io::Mesh mesh = io::read_mesh(path.string());
+    const double scale = group.real("scale");
+    for (double& x : mesh.points) x *= scale;
+    return mesh;
+  } catch (const io::Error& error) {
+    deck.fail(group, "file", error.what());
+  }
+}
+
+class Meshes {
+ public:
+  explicit Meshes(const Deck& deck) : deck_(deck) {
+    for (const char* kind : {"mesh", "lattice"}) {
+      for (const DeckGroup* group : deck.all(kind)) {
+        if (!groups_.emplace(group->text("name"), group).second) {
+          deck.fail(*group, "name",
+                    "two meshes are called " + quoted(group->text("name")) +
+                        "; give every &mesh and &lattice its own name");
+        }
+      }
+    }
+  }
+
+  const io::Mesh& get(const DeckGroup& body) {
+    const std::string& name = body.text("mesh");
+    const auto group = groups_.find(name);
+    if (group == groups_.end()) {
+      std::vector<std::string> known;
+      for (const auto& [key, value] : groups_) known.push_back(key);
+      deck_.fail(body, "mesh",
+                 "there is no &mesh or &lattice with name " + quoted(name) +
+                     "; known: " + list(known));
+    }
+    const auto [entry, is_new] = meshes_.try_emplace(name);
+    if (is_new) entry->second = mesh_of(deck_, *group->second);
+    return entry->second;
+  }
+
+ private:
+  const Deck& deck_;
+  std::map<std::string, const DeckGroup*> groups_;
+  std::map<std::string, io::Mesh> meshes_;
+};
+
+std::vector<std::string> group_names(const io::Mesh& mesh, int dimension) {
+  std::vector<std::string> names;
+  for (const auto& group : mesh.groups) {
+    if (group.dimension == dimension) names.push_back(group.name);
+  }
+  return names;
+}
+
+// Mesh nodes of the simplices of a body, (dimension + 1, m).
+std::vector<Index> simplex_nodes(const Deck& deck, const DeckGroup& body, const io::Mesh& mesh,
+                                 int dimension) {
+  const io::CellBlock& block = dimension == 2 ? mesh.triangles : mesh.tetrahedra;
+  const std::string& set = body.text("set");
+  const char* cells = dimension == 2 ? "triangles" : "tetrahedra";
+  if (set.empty()) {
+    if (block.count() == 0) {
+      deck.fail(body, "mesh",
+                "the mesh has no " + std::string(cells) + " for a body with kinematics " +
+                    quoted(body.text("kinematics")) + "; it has " +
+                    number(mesh.triangles.count()) + " triangles and " +
+                    number(mesh.tetrahedra.count()) + " tetrahedra");
+    }
+    return block.nodes;
+  }
+  const io::MeshGroup* group = mesh.find_group(set);
+  if (group == nullptr || group->dimension != dimension || group->cells.empty()) {
+    deck.fail(body, "set",
+              quoted(set) + " is not a group of " + cells + " of the mesh; known groups of " +
+                  cells + ": " + list(group_names(mesh, dimension)));
+  }
+  std::vector<Index> nodes;
+  const auto corners = dimension + 1;
+  nodes.reserve(group->cells.size() * at(corners));
+  for (const Index cell : group->cells) {
+    const auto first = block.nodes.begin() + cell * corners;
+    nodes.insert(nodes.end(), first, first + corners);
+  }
+  return nodes;
+}
+
+// A plane body lies in a plane of constant z; z is then dropped.
+void flatten(const Deck& deck, const DeckGroup& group, BodyGeometry& body) {
+  const Box box = bounding_box(body);
+  const double extent = std::max(box.upper[0] - box.lower[0], box.upper[1] - box.lower[1]);
+  if (box.upper[2] - box.lower[2] > 1e-9 * extent) {  // far above the rounding of a mesh file
+    deck.fail(group, "kinematics",
+              "a plane body needs points with one z; here z runs from " + number(box.lower[2]) +
+                  " to " + number(box.upper[2]) + ". Use kinematics = '3d' or another mesh");
+  }
+  for (Index i = 0; i < body.particles(); ++i) body.X[at(3 * i + 2)] = 0.0;
+}
+
+void check_body_name(const Deck& deck, const DeckGroup& group) {
+  const std::string& name = group.text("name");
+  const bool plain =
+      !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+               c == '_';
+      });
+  if (!plain) {
+    deck.fail(group, "name",
+              quoted(name) + " cannot name a body in files; use letters, digits and _");
+  }
+}
+
+// New number of every mesh node, -1 if the body does not use it.
+std::vector<Index> renumber(const io::Mesh& mesh, std::vector<Index>& simplices) {
+  std::vector<Index> number_of(at(mesh.point_count()), -1);
+  for (const Index node : simplices) number_of[at(node)] = 0;
+  Index count = 0;
+  for (Index& entry : number_of) {
+    if (entry == 0) entry = count++;
+  }
+  for (Index& node : simplices) node = number_of[at(node)];
+  return number_of;
+}
+
+BodyGeometry take_body(const Deck& deck, const DeckGroup& group, const io::Mesh& mesh,
+                       std::vector<Index>& crack_use) {
+  BodyGeometry body;
+  body.name = group.text("name");
+  body.dimension = dimension_of(group.text("kinematics"));
+  body.simplices = simplex_nodes(deck, group, mesh, body.dimension);
+  const std::vector<Index> number_of = renumber(mesh, body.simplices);
+  const auto& shift = group.reals("translate");
+  for (Index node = 0; node < mesh.point_count(); ++node) {
+    if (number_of[at(node)] < 0) continue;
+    for (Index k = 0; k < 3; ++k) body.X.push_back(mesh.points[at(3 * node + k)] + shift[at(k)]);
+    body.point_ids.push_back(mesh.point_ids.empty() ? node + 1 : mesh.point_ids[at(node)]);
+  }
+  if (body.dimension == 2) flatten(deck, group, body);
+  for (const io::MeshGroup& mesh_group : mesh.groups) {
+    NamedSet set{mesh_group.name, {}};
+    for (const Index node : mesh_group.nodes) {
+      if (number_of[at(node)] >= 0) set.particles.push_back(number_of[at(node)]);
+    }
+    if (!set.particles.empty()) body.groups.push_back(std::move(set));
+  }
+  take_mesh_cracks(deck, mesh, number_of, body, crack_use);
+  return body;
+}
+
+}  // namespace
+
+const NamedSet* BodyGeometry::find_group(const std::string& group) const {
+  for (const NamedSet& set : groups) {
+    if (set.name == group) return &set;
+  }
+  return nullptr;
+}
+
+double shortest_edge(const BodyGeometry& body) {
+  double shortest = std::numeric_limits<double>::infinity();
+  const int corners = body.dimension + 1;
+  for (Index s = 0; s < body.simplex_count(); ++s) {
+    const Index* v = &body.simplices[at(s * corners)];
+    for (int a = 0; a < corners; ++a) {
+      for (int b = a + 1; b < corners; ++b) {
+        const double* p = &body.X[at(3 * v[a])];
+        const double* q = &body.X[at(3 * v[b])];
+        shortest = std::min(shortest, std::hypot(q[0] - p[0], q[1] - p[1], q[2] - p[2]));
+      }
+    }
+  }
+  return shortest;
+}
+
+Box bounding_box(const BodyGeometry& body) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Box box{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+  for (Index i = 0; i < body.particles(); ++i) {
+    for (int k = 0; k < 3; ++k) {
+      box.lower[k] = std::min(box.lower[k], body.X[at(3 * i + k)]);
+      box.upper[k] = std::max(box.upper[k], body.X[at(3 * i + k)]);
+    }
+  }
+  return box;
+}
+
+int dimension_of(const std::string& kinematics) { return kinematics == "3d" ? 3 : 2; }
+
+std::vector<BodyGeometry> take_bodies(const Deck& deck) {
+  const auto groups = deck.all("body");
+  if (groups.empty()) {
+    throw DeckError(deck.source.path + ": the deck has no &body; add one that names a mesh, a " +
+                    "material and its kinematics");
+  }
+  Meshes meshes(deck);
+  std::vector<BodyGeometry> bodies;
+  const auto precracks = deck.all("precrack");
+  std::vector<Index> crack_use(precracks.size(), 0);
+  for (const DeckGroup* group : groups) {
+    check_body_name(deck, *group);
+    for (const BodyGeometry& other : bodies) {
+      if (other.name == group->text("name")) {
+        deck.fail(*group, "name",
+                  "two bodies are called " + quoted(other.name) + "; give each its own name");
+      }
+    }
+    bodies.push_back(take_body(deck, *group, meshes.get(*group), crack_use));
+  }
+  for (std::size_t i = 0; i < precracks.size(); ++i) {
+    if (precracks[i]->text("shape") == "group" && crack_use[i] == 0) {
+      deck.fail(*precracks[i], "set",
+                "no line or triangle of the mesh group " + quoted(precracks[i]->text("set")) +
+                    " lies in the body it applies to");
+    }
+  }
+  return bodies;
+}
+
+}  // namespace cleave::driver

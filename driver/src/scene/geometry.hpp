@@ -1,0 +1,52 @@
+// A body before it becomes a model: particles, simplices and named sets, in the numbering that files
+// and events show. This is all that a checkpoint must carry so that the mesh file is not needed again.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "deck/deck.hpp"
+
+namespace cleave::driver {
+
+struct NamedSet {
+  std::string name;
+  std::vector<std::int64_t> particles;  // sorted, unique
+};
+
+struct BodyGeometry {
+  std::string name;
+  int dimension = 3;                    // 2 or 3
+  std::vector<double> X;                // (3, n) reference position [m]
+  std::vector<std::int64_t> simplices;  // (dimension + 1, m)
+  std::vector<std::int64_t> point_ids;  // (n) number in the mesh file; split particles get new ones
+  std::vector<NamedSet> groups;         // mesh groups that have particles in this body
+  // Facets of every &precrack with shape = 'group' and mode = 'delete'; used once, before the first
+  // step, and not part of a checkpoint.
+  std::vector<std::vector<std::int64_t>> crack_facets;
+
+  std::int64_t particles() const { return static_cast<std::int64_t>(X.size()) / 3; }
+  std::int64_t simplex_count() const {
+    return static_cast<std::int64_t>(simplices.size()) / (dimension + 1);
+  }
+  const NamedSet* find_group(const std::string& group) const;
+};
+
+// Length of the shortest edge of the simplices [m].
+double shortest_edge(const BodyGeometry& body);
+// Lowest and highest coordinates (3 + 3).
+struct Box {
+  double lower[3], upper[3];
+};
+Box bounding_box(const BodyGeometry& body);
+
+// Dimension of a value of body.kinematics.
+int dimension_of(const std::string& kinematics);
+
+// Reads the meshes of the deck and takes every &body from them: the nodes its simplices use,
+// renumbered in the order of the mesh, scaled and translated; split pre-cracks are made here.
+// Throws DeckError.
+std::vector<BodyGeometry> take_bodies(const Deck& deck);
+
+}  // namespace cleave::driver

@@ -1,0 +1,155 @@
+#include "scene/sets.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "scene/format.hpp"
+
+namespace cleave::driver {
+namespace {
+
+using Index = std::int64_t;
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+// The region of a &zone; `margin` is added on every side.
+class Region {
+ public:
+  Region(const Deck& deck, const DeckGroup& zone)
+      : shape_(zone.text("shape")),
+        lower_(zone.reals("lower")),
+        upper_(zone.reals("upper")),
+        centre_(zone.reals("centre")),
+        normal_(zone.reals("normal")),
+        radius_(zone.real("radius")) {
+    for (const char* key : {"lower", "upper"}) {
+      const auto count = zone.reals(key).size();
+      if (count != 0 && count != 2 && count != 3) {
+        deck.fail(zone, key, "a corner has 2 or 3 numbers, or none for an unbounded side; here " +
+                                 std::to_string(count));
+      }
+    }
+    for (std::size_t k = 0; k < std::min(lower_.size(), upper_.size()); ++k) {
+      if (lower_[k] > upper_[k]) {
+        deck.fail(zone, "upper", "upper lies below lower in direction " +
+                                     std::string(1, "xyz"[k]) + ": " + number(upper_[k]) + " < " +
+                                     number(lower_[k]));
+      }
+    }
+    const double length = std::hypot(normal_[0], normal_[1], normal_[2]);
+    const bool needs_normal = shape_ == "cylinder" || shape_ == "plane";
+    if (needs_normal && !(length > 0)) deck.fail(zone, "normal", "the normal must not be zero");
+    if (needs_normal) {
+      for (double& n : normal_) n /= length;
+    }
+  }
+
+  bool contains(const double* x, double margin) const {
+    if (shape_ == "box") return in_box(x, margin);
+    const double d[3] = {x[0] - centre_[0], x[1] - centre_[1], x[2] - centre_[2]};
+    if (shape_ == "sphere") return std::hypot(d[0], d[1], d[2]) <= radius_ + margin;
+    const double along = d[0] * normal_[0] + d[1] * normal_[1] + d[2] * normal_[2];
+    if (shape_ == "plane") return std::abs(along) <= margin;
+    return std::hypot(d[0] - along * normal_[0], d[1] - along * normal_[1],
+                      d[2] - along * normal_[2]) <= radius_ + margin;
+  }
+
+ private:
+  bool in_box(const double* x, double margin) const {
+    for (std::size_t k = 0; k < lower_.size(); ++k) {
+      if (x[k] < lower_[k] - margin) return false;
+    }
+    for (std::size_t k = 0; k < upper_.size(); ++k) {
+      if (x[k] > upper_[k] + margin) return false;
+    }
+    return true;
+  }
+
+  std::string shape_;
+  std::vector<double> lower_, upper_, centre_, normal_;
+  double radius_;
+};
+
+}  // namespace
+
+Sets::Sets(const Deck& deck, const std::vector<BodyGeometry>& bodies)
+    : deck_(deck), geometry_(bodies) {
+  for (const BodyGeometry& body : bodies) sets_.push_back(body.groups);
+  for (const DeckGroup* zone : deck.all("zone")) add_zone(*zone);
+}
+
+void Sets::add_zone(const DeckGroup& zone) {
+  const std::string& name = zone.text("name");
+  const Region region(deck_, zone);
+  bool found = false;
+  for (const Index body : bodies(zone)) {
+    for (const NamedSet& other : sets_[at(body)]) {
+      if (other.name == name) {
+        deck_.fail(zone, "name", "body " + quoted(geometry_[at(body)].name) +
+                                     " already has a set " + quoted(name) +
+                                     "; give the zone another name");
+      }
+    }
+    const BodyGeometry& geometry = geometry_[at(body)];
+    const double margin = zone.real("tolerance") * shortest_edge(geometry);
+    NamedSet set{name, {}};
+    for (Index i = 0; i < geometry.particles(); ++i) {
+      if (region.contains(&geometry.X[at(3 * i)], margin)) set.particles.push_back(i);
+    }
+    found = found || !set.particles.empty();
+    if (!set.particles.empty()) sets_[at(body)].push_back(std::move(set));
+  }
+  if (!found) {
+    std::string extents;
+    for (const Index body : bodies(zone)) {
+      const Box box = bounding_box(geometry_[at(body)]);
+      extents += "; body " + quoted(geometry_[at(body)].name) + " extends from " +
+                 point_text(box.lower) + " to " + point_text(box.upper);
+    }
+    deck_.fail(zone, "zone " + quoted(name) + " is empty: it holds no particle" + extents);
+  }
+}
+
+const std::vector<NamedSet>& Sets::of_body(Index body) const { return sets_[at(body)]; }
+
+std::vector<Index> Sets::bodies(const DeckGroup& group) const {
+  const std::string& name = group.text("body");
+  std::vector<Index> all(geometry_.size());
+  std::iota(all.begin(), all.end(), 0);
+  if (name.empty()) return all;
+  std::vector<std::string> known;
+  for (const Index body : all) {
+    if (geometry_[at(body)].name == name) return {body};
+    known.push_back(geometry_[at(body)].name);
+  }
+  deck_.fail(group, "body", "there is no body " + quoted(name) + "; known: " + list(known));
+}
+
+std::vector<Selection> Sets::select(const DeckGroup& group) const {
+  const std::string& name = group.text("set");
+  std::vector<Selection> selections;
+  std::vector<std::string> known;
+  for (const Index body : bodies(group)) {
+    if (name.empty()) {
+      Selection all{body, std::vector<Index>(at(geometry_[at(body)].particles()))};
+      std::iota(all.particles.begin(), all.particles.end(), 0);
+      selections.push_back(std::move(all));
+      continue;
+    }
+    for (const NamedSet& set : sets_[at(body)]) {
+      if (set.name == name) selections.push_back({body, set.particles});
+      const std::string entry = quoted(set.name);
+      if (std::find(known.begin(), known.end(), entry) == known.end()) known.push_back(entry);
+    }
+  }
+  if (selections.empty()) {
+    deck_.fail(group, "set",
+               "no particle is in a set " + quoted(name) +
+                   "; known sets (mesh groups with particles of the body, and zones): " +
+                   list(known));
+  }
+  return selections;
+}
+
+}  // namespace cleave::driver

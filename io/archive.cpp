@@ -1,0 +1,193 @@
+// Checks and writes an archive; archive_format.hpp describes the file.
+#include "io/archive.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <map>
+#include <set>
+#include <span>
+
+#include "io/archive_format.hpp"
+#include "io/netcdf_file.hpp"
+#include "io/netcdf_layout.hpp"
+#include "io/new_file.hpp"
+
+namespace cleave::io {
+using namespace archive_format;
+
+namespace {
+
+// netCDF forbids '/' in names.
+std::string name_in_file(std::string name) {
+  std::replace(name.begin(), name.end(), '/', ':');
+  return name;
+}
+
+std::int64_t size_of(const ArrayData& data) {
+  return std::visit([](const auto& values) { return std::ssize(values); }, data);
+}
+
+std::uint64_t checksum_of(const ArrayData& data) {
+  return std::visit([](const auto& values) { return crc64(std::span(values)); }, data);
+}
+
+// ---- checks before writing -------------------------------------------------------------------
+
+void check_name(const std::string& path, const std::string& what, const std::string& name,
+                bool slash_allowed) {
+  const auto is_word = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+  };
+  const auto allowed = [&](char c) {
+    return is_word(c) || c == '.' || c == '-' || c == '@' || c == '+' || (slash_allowed && c == '/');
+  };
+  if (name.empty() || name.size() > 255 || !is_word(name.front()) ||
+      !std::all_of(name.begin(), name.end(), allowed)) {
+    throw Error(path + ": " + what + " '" + name +
+                "' has a name that cannot be stored; allowed are at most 255 letters, digits and _ . - @ + " +
+                (slash_allowed ? "/ " : "") + "beginning with a letter, a digit or _");
+  }
+}
+
+void check_unique(const std::string& path, const std::string& what, const std::string& name,
+                  std::set<std::string>& seen) {
+  if (!seen.insert(name).second) {
+    throw Error(path + ": " + what + " '" + name +
+                "' occurs twice, or its name is reserved; names in an archive are unique");
+  }
+}
+
+void check_archive(const std::string& path, const Archive& archive) {
+  std::set<std::string> seen{kFormat};
+  for (const auto& [name, value] : archive.attributes) {
+    check_name(path, "attribute", name, false);
+    check_unique(path, "attribute", name, seen);
+  }
+  seen = {kHeaderChecksum};
+  for (const NamedArray& array : archive.arrays) {
+    check_name(path, "array", array.name, true);
+    check_unique(path, "array", array.name, seen);
+    if (array.components < 1 || size_of(array.data) % array.components != 0) {
+      throw Error(path + ": array '" + array.name + "' has " + std::to_string(size_of(array.data)) +
+                  " values, which is not a multiple of its " + std::to_string(array.components) +
+                  " components");
+    }
+  }
+}
+
+// ---- writing ---------------------------------------------------------------------------------
+
+class Dimensions {
+ public:
+  explicit Dimensions(const NetcdfFile& file) : file_(file) {}
+
+  // The netCDF dimensions of an array, slowest first.
+  std::vector<int> of(const NamedArray& array) {
+    const std::int64_t rows = size_of(array.data) / array.components;
+    std::vector<int> ids;
+    ids.push_back(rows == 0 ? get("empty", NC_UNLIMITED) : get("size_" + std::to_string(rows), rows));
+    if (array.components > 1) {
+      ids.push_back(get("components_" + std::to_string(array.components), array.components));
+    }
+    return ids;
+  }
+
+ private:
+  int get(const std::string& name, std::int64_t length) {
+    const auto found = ids_.find(name);
+    if (found != ids_.end()) return found->second;
+    return ids_[name] = file_.define_dimension(name, length);
+  }
+
+  const NetcdfFile& file_;
+  std::map<std::string, int> ids_;
+};
+
+void put_attribute(const NetcdfFile& file, const std::string& name, const AttributeValue& value) {
+  if (const auto* text = std::get_if<std::string>(&value)) {
+    file.put_text(NC_GLOBAL, name, *text);
+    return;
+  }
+  int status = NC_NOERR;
+  if (const auto* integer = std::get_if<std::int64_t>(&value)) {
+    const long long number = *integer;
+    status = nc_put_att_longlong(file.id(), NC_GLOBAL, name.c_str(), NC_INT64, 1, &number);
+  } else {
+    status = nc_put_att_double(file.id(), NC_GLOBAL, name.c_str(), NC_DOUBLE, 1,
+                               &std::get<double>(value));
+  }
+  file.check(status, "define the attribute '" + name + "'");
+}
+
+int define_variable(const NetcdfFile& file, const std::string& name, bool is_integer,
+                    const std::vector<int>& dimensions) {
+  int variable = -1;
+  file.check(nc_def_var(file.id(), name.c_str(), is_integer ? NC_INT64 : NC_DOUBLE,
+                        static_cast<int>(dimensions.size()), dimensions.data(), &variable),
+             "define the array '" + name + "'");
+  return variable;
+}
+
+void define_header(const NetcdfFile& file, const Archive& archive) {
+  file.put_text(NC_GLOBAL, kFormat, kFormatName);
+  for (const auto& [name, value] : archive.attributes) put_attribute(file, name, value);
+  const int checksum = define_variable(file, kHeaderChecksum, true, {});
+  file.put_text(checksum, "long_name",
+                "CRC-64/XZ of all bytes of this file before this variable; attributes 'checksum': "
+                "CRC-64/XZ of the values of an array, least significant byte first");
+  Dimensions dimensions(file);
+  for (const NamedArray& array : archive.arrays) {
+    const bool is_integer = std::holds_alternative<std::vector<std::int64_t>>(array.data);
+    const int variable = define_variable(file, name_in_file(array.name), is_integer, dimensions.of(array));
+    file.put_text(variable, "units", array.units);
+    file.put_text(variable, "long_name", array.description);
+    file.put_text(variable, "checksum", checksum_text(checksum_of(array.data)));
+  }
+  file.end_definitions();
+}
+
+void write_contents(const std::string& path, const Archive& archive) {
+  NetcdfFile file = NetcdfFile::create(path);
+  define_header(file, archive);
+  const auto put_header_checksum = [&](std::uint64_t checksum) {
+    const auto value = std::bit_cast<long long>(checksum);
+    file.check(nc_put_var_longlong(file.id(), 0, &value), "write the checksum of the header");
+  };
+  put_header_checksum(0);
+  for (int i = 0; i < static_cast<int>(archive.arrays.size()); ++i) {
+    const NamedArray& array = archive.arrays[static_cast<std::size_t>(i)];
+    if (size_of(array.data) == 0) continue;
+    const auto put = [&](const auto& values) { return nc_put_var(file.id(), i + 1, values.data()); };
+    file.check(std::visit(put, array.data), "write the array '" + array.name + "'");
+  }
+  file.check(nc_sync(file.id()), "write the file");
+  put_header_checksum(checksum_of_beginning(path, read_netcdf_layout(path).header_bytes));
+  file.close();
+}
+
+}  // namespace
+
+const AttributeValue* Archive::find_attribute(const std::string& name) const {
+  for (const auto& [key, value] : attributes) {
+    if (key == name) return &value;
+  }
+  return nullptr;
+}
+
+const NamedArray* Archive::find_array(const std::string& name) const {
+  for (const NamedArray& array : arrays) {
+    if (array.name == name) return &array;
+  }
+  return nullptr;
+}
+
+void write_archive(const std::string& path, const Archive& archive) {
+  check_archive(path, archive);
+  NewFile file(path);
+  write_contents(file.temporary_path(), archive);
+  sync_file_and_drop_cache(file.temporary_path());
+  verify_archive(file.temporary_path());
+  file.commit_durably();
+}
+
+}  // namespace cleave::io

@@ -1,0 +1,250 @@
+#include "io/record_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "io/csv.hpp"
+#include "io/error.hpp"
+#include "io/netcdf_file.hpp"
+#include "io/netcdf_layout.hpp"
+#include "io/new_file.hpp"
+
+namespace cleave::io {
+namespace {
+
+constexpr std::int64_t kFlushRecords = 4096;
+constexpr double kLargestInteger = 9007199254740992;  // 2^53: above it doubles skip integers
+
+void check_columns(const std::string& path, const std::vector<Column>& columns) {
+  if (columns.empty()) throw Error(path + ": a table needs at least one column");
+  std::set<std::string> seen;
+  for (const Column& column : columns) {
+    if (!seen.insert(column.name).second) {
+      throw Error(path + ": two columns have the name '" + column.name + "'; names are unique");
+    }
+  }
+}
+
+void write_empty_table(const std::string& path, const std::vector<Column>& columns,
+                       const std::vector<std::pair<std::string, std::string>>& attributes) {
+  NewFile new_file(path);
+  NetcdfFile file = NetcdfFile::create(new_file.temporary_path());
+  for (const auto& [name, text] : attributes) file.put_text(NC_GLOBAL, name, text);
+  const int record = file.define_dimension("record", NC_UNLIMITED);
+  for (const Column& column : columns) {
+    int variable = -1;
+    file.check(nc_def_var(file.id(), column.name.c_str(), column.is_integer ? NC_INT64 : NC_DOUBLE,
+                          1, &record, &variable),
+               "define the column '" + column.name + "'");
+    file.put_text(variable, "units", column.units);
+    file.put_text(variable, "long_name", column.description);
+  }
+  file.end_definitions();
+  file.close();
+  new_file.commit();
+}
+
+// Writes `records` (row by row) behind the first `first` records of the file.
+void write_records(const NetcdfFile& file, const std::vector<Column>& columns, std::int64_t first,
+                   std::span<const double> records) {
+  const std::size_t width = columns.size(), count = records.size() / width;
+  const auto start = static_cast<std::size_t>(first);
+  std::vector<double> reals(count);
+  std::vector<long long> integers(count);
+  for (std::size_t c = 0; c < width; ++c) {
+    const int variable = static_cast<int>(c);
+    int status = NC_NOERR;
+    if (columns[c].is_integer) {
+      for (std::size_t r = 0; r < count; ++r) {
+        integers[r] = static_cast<long long>(records[r * width + c]);
+      }
+      status = nc_put_vara_longlong(file.id(), variable, &start, &count, integers.data());
+    } else {
+      for (std::size_t r = 0; r < count; ++r) reals[r] = records[r * width + c];
+      status = nc_put_vara_double(file.id(), variable, &start, &count, reals.data());
+    }
+    file.check(status, "write the column '" + columns[c].name + "'");
+  }
+}
+
+std::vector<double> read_records(const NetcdfFile& file, std::span<const Column> columns,
+                                 std::int64_t first, std::int64_t end) {
+  const std::size_t width = columns.size();
+  const auto start = static_cast<std::size_t>(first), count = static_cast<std::size_t>(end - first);
+  std::vector<double> column(count), records(count * width);
+  for (std::size_t c = 0; c < width; ++c) {
+    file.check(nc_get_vara_double(file.id(), static_cast<int>(c), &start, &count, column.data()),
+               "read the column '" + columns[c].name + "'");
+    for (std::size_t r = 0; r < count; ++r) records[r * width + c] = column[r];
+  }
+  return records;
+}
+
+void check_same_columns(const NetcdfFile& file, const std::string& path,
+                        const std::vector<Column>& columns) {
+  int variables = 0;
+  file.check(nc_inq_nvars(file.id(), &variables), "read the header");
+  if (variables != std::ssize(columns)) {
+    throw Error(path + ": has " + std::to_string(variables) + " columns, this run has " +
+                std::to_string(columns.size()) + "; continue with the deck that wrote it");
+  }
+  for (int c = 0; c < variables; ++c) {
+    const Column& column = columns[static_cast<std::size_t>(c)];
+    nc_type type = NC_NAT;
+    file.check(nc_inq_vartype(file.id(), c, &type), "read the header");
+    const std::string name = file.variable_name(c), units = file.text(c, "units");
+    if (name != column.name || units != column.units ||
+        type != (column.is_integer ? NC_INT64 : NC_DOUBLE)) {
+      throw Error(path + ": column " + std::to_string(c + 1) + " is '" + name + " [" + units +
+                  "]', this run has '" + column.name + " [" + column.units +
+                  "]'; continue with the deck that wrote it");
+    }
+  }
+}
+
+}  // namespace
+
+struct RecordTable::Impl {
+  std::string path, csv_path;
+  std::vector<Column> columns;
+  std::int64_t flushed = 0;          // records in the files
+  std::int64_t csv_bytes = 0;        // length of the CSV with them
+  std::vector<double> waiting;       // records not in the files, one after the other
+  std::int64_t flush_at = kFlushRecords;  // waiting records that start a flush
+
+  std::int64_t waiting_records() const { return std::ssize(waiting) / std::ssize(columns); }
+
+  void flush();
+  void write_waiting();
+  void restore_files() noexcept;
+  void write_csv();
+};
+
+void RecordTable::Impl::flush() {
+  if (waiting.empty()) return;
+  try {
+    write_waiting();
+  } catch (...) {
+    restore_files();
+    flush_at = waiting_records() + kFlushRecords;  // not again at every record
+    throw;
+  }
+  flushed += waiting_records();
+  waiting.clear();
+  flush_at = kFlushRecords;
+}
+
+void RecordTable::Impl::write_waiting() {
+  NetcdfFile file = NetcdfFile::open(path, NetcdfFile::Access::write);
+  write_records(file, columns, flushed, waiting);
+  file.close();
+  if (csv_path.empty()) return;
+  std::string text;
+  append_csv_records(text, columns, waiting);
+  append_to_file(csv_path, text);
+  csv_bytes += std::ssize(text);
+}
+
+// After a failed flush: both files back to the records they had.
+void RecordTable::Impl::restore_files() noexcept {
+  try {
+    truncate_records(path, flushed);
+  } catch (const Error&) {  // the first error is the one to report
+  }
+  try {
+    if (!csv_path.empty()) set_file_size(csv_path, csv_bytes);
+  } catch (const Error&) {
+  }
+}
+
+// The whole CSV from the netCDF file, in blocks.
+void RecordTable::Impl::write_csv() {
+  const NetcdfFile file = NetcdfFile::open(path, NetcdfFile::Access::read);
+  NewFile new_file(csv_path);
+  create_empty_file(new_file.temporary_path());
+  append_to_file(new_file.temporary_path(), csv_header(columns));
+  for (std::int64_t first = 0; first < flushed; first += kFlushRecords) {
+    const std::int64_t end = std::min(first + kFlushRecords, flushed);
+    std::string text;
+    append_csv_records(text, columns, read_records(file, columns, first, end));
+    append_to_file(new_file.temporary_path(), text);
+  }
+  csv_bytes = file_size(new_file.temporary_path());
+  new_file.commit();
+}
+
+RecordTable RecordTable::create(const std::string& path, const std::string& csv_path,
+                                std::vector<Column> columns,
+                                const std::vector<std::pair<std::string, std::string>>& attributes) {
+  check_columns(path, columns);
+  write_empty_table(path, columns, attributes);
+  auto impl = std::make_unique<Impl>();
+  impl->path = path;
+  impl->csv_path = csv_path;
+  impl->columns = std::move(columns);
+  if (!csv_path.empty()) impl->write_csv();
+  return RecordTable(std::move(impl));
+}
+
+RecordTable RecordTable::reopen(const std::string& path, const std::string& csv_path,
+                                std::vector<Column> columns, std::int64_t records) {
+  check_columns(path, columns);
+  const NetcdfLayout layout = read_netcdf_layout(path);
+  if (layout.version != 5) throw Error(path + ": is not a table written by Cleave; check the name");
+  check_same_columns(NetcdfFile::open(path, NetcdfFile::Access::read), path, columns);
+  truncate_records(path, records);
+  auto impl = std::make_unique<Impl>();
+  impl->path = path;
+  impl->csv_path = csv_path;
+  impl->columns = std::move(columns);
+  impl->flushed = records;
+  if (!csv_path.empty()) impl->write_csv();
+  return RecordTable(std::move(impl));
+}
+
+RecordTable::RecordTable(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+RecordTable::RecordTable(RecordTable&&) noexcept = default;
+
+RecordTable& RecordTable::operator=(RecordTable&& other) noexcept {
+  const RecordTable old(std::move(impl_));  // flushes at the end of this function
+  impl_ = std::move(other.impl_);
+  return *this;
+}
+
+RecordTable::~RecordTable() {
+  if (impl_ == nullptr) return;
+  try {
+    impl_->flush();
+  } catch (const Error&) {  // a destructor cannot report; flush() before it can
+  }
+}
+
+void RecordTable::append(std::span<const double> values) {
+  Impl& t = *impl_;
+  if (values.size() != t.columns.size()) {
+    throw Error(t.path + ": a record has " + std::to_string(values.size()) + " values, the table has " +
+                std::to_string(t.columns.size()) + " columns");
+  }
+  for (std::size_t c = 0; c < values.size(); ++c) {
+    const bool is_exact = std::fabs(values[c]) <= kLargestInteger && values[c] == std::trunc(values[c]);
+    if (t.columns[c].is_integer && !is_exact) {
+      throw Error(t.path + ": column '" + t.columns[c].name +
+                  "' holds integers up to 2^53; the value given is none of them");
+    }
+  }
+  t.waiting.insert(t.waiting.end(), values.begin(), values.end());
+  if (t.waiting_records() >= t.flush_at) t.flush();
+}
+
+void RecordTable::flush() { impl_->flush(); }
+
+void RecordTable::sync() {
+  impl_->flush();
+  sync_file(impl_->path);
+  if (!impl_->csv_path.empty()) sync_file(impl_->csv_path);
+}
+
+std::int64_t RecordTable::records() const { return impl_->flushed + impl_->waiting_records(); }
+
+}  // namespace cleave::io

@@ -1,0 +1,311 @@
+// The model handle: life, set-up, stepping, questions.
+#include "model/model.hpp"
+
+#include <cstring>
+
+#include "abi/guard.hpp"
+
+using namespace cleave;
+using namespace cleave::abi;
+using Phase = cleave_model::Phase;
+
+namespace {
+
+cleave_model& checked(cleave_model* model) { return required(model, "model"); }
+
+constexpr const char* kBeforeSetup = "this call must come before cleave_model_setup";
+
+template <class T>
+std::span<const T> span_of(const T* data, std::int64_t count, const char* name) {
+  if (count < 0) throw Error(CLEAVE_BAD_ARGUMENT, text("count is ", count, "; allowed: >= 0"));
+  if (count > 0) required(data, name);
+  return {data, static_cast<std::size_t>(count)};
+}
+
+void add(cleave_energies& sum, const cleave_energies& e) {
+  sum.kinetic += e.kinetic;
+  sum.kinetic_staggered += e.kinetic_staggered;
+  sum.elastic += e.elastic;
+  sum.plastic += e.plastic;
+  sum.stabilisation += e.stabilisation;
+  sum.fracture += e.fracture;
+  sum.viscous += e.viscous;
+  sum.external += e.external;
+  sum.reaction += e.reaction;
+  sum.internal += e.internal;
+  sum.balance += e.balance;
+  sum.identity += e.identity;
+  sum.hourglass += e.hourglass;
+}
+
+void add(cleave_counts& sum, const cleave_counts& c) {
+  sum.particles += c.particles;
+  sum.bonds += c.bonds;
+  sum.simplices += c.simplices;
+  sum.broken += c.broken;
+  sum.inert += c.inert;
+  sum.isolated += c.isolated;
+  sum.inverted += c.inverted;
+}
+
+// Value of one body, or the sum over all for body = -1.
+template <class T, class Ask>
+T one_or_all(const cleave_model& model, std::int64_t body, const Ask& ask) {
+  if (body != -1) return ask(model.body(body));
+  T sum{};
+  for (const auto& b : model.bodies) add(sum, ask(*b));
+  return sum;
+}
+
+}  // namespace
+
+extern "C" {
+
+int32_t cleave_model_create(int32_t abi, cleave_model** model) {
+  return guarded("cleave_model_create", [&] {
+    required(model, "model");
+    if (abi != CLEAVE_ABI_VERSION) {
+      throw Error(CLEAVE_ABI_MISMATCH,
+                  text("the caller was compiled for interface ", abi, ", this library has ",
+                       CLEAVE_ABI_VERSION, "; compile it with the installed cleave.h"));
+    }
+    *model = new cleave_model;
+  });
+}
+
+int32_t cleave_model_destroy(cleave_model* model) {
+  return guarded("cleave_model_destroy", [&] { delete model; });
+}
+
+int32_t cleave_model_set_threads(cleave_model* model, int32_t threads) {
+  return guarded("cleave_model_set_threads", [&] {
+    if (threads < 1)
+      throw Error(CLEAVE_BAD_ARGUMENT, text("threads is ", threads, "; allowed: >= 1"));
+    checked(model).threads = threads;
+  });
+}
+
+int32_t cleave_body_spec_init(cleave_body_spec* spec) {
+  return guarded("cleave_body_spec_init", [&] {
+    required(spec, "spec") = {sizeof(cleave_body_spec),
+                              CLEAVE_FORMULATION_cbm,
+                              CLEAVE_3D,
+                              CLEAVE_MATERIAL_svk,
+                              0,
+                              0,
+                              nullptr,
+                              0,
+                              nullptr,
+                              ""};
+  });
+}
+
+int32_t cleave_body_add(cleave_model* model, const cleave_body_spec* spec, int64_t* body) {
+  return guarded("cleave_body_add", [&] {
+    checked(model).require(Phase::building, kBeforeSetup);
+    required(body, "body");
+    if (required(spec, "spec").size != static_cast<int64_t>(sizeof(cleave_body_spec))) {
+      throw Error(CLEAVE_ABI_MISMATCH, text("cleave_body_spec has size ", spec->size,
+                                            "; fill it with cleave_body_spec_init"));
+    }
+    required(spec->X, "spec->X");
+    if (spec->simplex_count > 0) required(spec->simplices, "spec->simplices");
+    model->bodies.push_back(std::make_unique<Body>(*spec, static_cast<int>(model->bodies.size())));
+    *body = static_cast<int64_t>(model->bodies.size()) - 1;
+  });
+}
+
+int32_t cleave_body_set_real(cleave_model* model, int64_t body, const char* group, const char* name,
+                             double value) {
+  return guarded("cleave_body_set_real", [&] {
+    checked(model).require(Phase::building, kBeforeSetup);
+    model->body(body).group(&required(group, "group")).set_real(&required(name, "name"), value);
+  });
+}
+
+int32_t cleave_body_set_choice(cleave_model* model, int64_t body, const char* group,
+                               const char* name, const char* choice) {
+  return guarded("cleave_body_set_choice", [&] {
+    checked(model).require(Phase::building, kBeforeSetup);
+    model->body(body)
+        .group(&required(group, "group"))
+        .set_choice(&required(name, "name"), &required(choice, "choice"));
+  });
+}
+
+int32_t cleave_body_get_real(cleave_model* model, int64_t body, const char* group, const char* name,
+                             double* value) {
+  return guarded("cleave_body_get_real", [&] {
+    required(value, "value") =
+        checked(model).body(body).group(&required(group, "group")).real(&required(name, "name"));
+  });
+}
+
+int32_t cleave_body_prescribe(cleave_model* model, int64_t body, int64_t count,
+                              const int64_t* particle, const int32_t* direction,
+                              const int32_t* motion) {
+  return guarded("cleave_body_prescribe", [&] {
+    checked(model).require(Phase::building, kBeforeSetup);
+    prescribe(model->body(body), span_of(particle, count, "particle"),
+              span_of(direction, count, "direction"), span_of(motion, count, "motion"));
+  });
+}
+
+int32_t cleave_body_exempt(cleave_model* model, int64_t body, int64_t count,
+                           const int64_t* particle) {
+  return guarded("cleave_body_exempt", [&] {
+    checked(model).require(Phase::building, kBeforeSetup);
+    Body& b = model->body(body);
+    const auto list = span_of(particle, count, "particle");
+    for (const int64_t i : list) check_range(i, i + 1, b.particles);
+    b.exempt.resize(static_cast<std::size_t>(b.particles), 0);
+    for (const int64_t i : list) b.exempt[static_cast<std::size_t>(i)] = 1;
+  });
+}
+
+int32_t cleave_model_setup(cleave_model* model) {
+  return guarded("cleave_model_setup", [&] {
+    checked(model).require(Phase::building, "the model is set up already; make a new one");
+    set_up(*model);
+  });
+}
+
+int32_t cleave_body_precrack(cleave_model* model, int64_t body, int64_t count,
+                             const int64_t* pairs) {
+  return guarded("cleave_body_precrack", [&] {
+    checked(model).require(
+        Phase::ready,
+        "pre-cracks come after cleave_model_setup and before cleave_model_initialise");
+    Body& b = model->body(body);
+    b.formulation->precrack(b, span_of(pairs, 2 * count, "pairs"));
+  });
+}
+
+int32_t cleave_model_stable_step(cleave_model* model, double* step) {
+  return guarded("cleave_model_stable_step", [&] {
+    checked(model).require_set_up();
+    required(step, "step") = stable_step(*model);
+  });
+}
+
+int32_t cleave_body_wave_speed(cleave_model* model, int64_t body, double* speed) {
+  return guarded("cleave_body_wave_speed", [&] {
+    checked(model).require_set_up();
+    required(speed, "speed") =
+        with_law(model->body(body).material, [](const auto& law) { return law.wave_speed(); });
+  });
+}
+
+int32_t cleave_body_motion(cleave_model* model, int64_t body, int64_t count,
+                           const double* displacement, const double* acceleration) {
+  return guarded("cleave_body_motion", [&] {
+    checked(model).require_set_up();
+    auto& list = model->body(body).prescribed;
+    if (count != static_cast<int64_t>(list.size())) {
+      throw Error(CLEAVE_BAD_ARGUMENT,
+                  text("count is ", count, ", but ", list.size(),
+                       " degrees of freedom are prescribed (cleave_body_prescribe)"));
+    }
+    for (std::size_t k = 0; k < list.size(); ++k) {
+      if (displacement != nullptr) list[k].displacement = displacement[k];
+      if (acceleration != nullptr) list[k].acceleration = acceleration[k];
+    }
+  });
+}
+
+int32_t cleave_model_initialise(cleave_model* model, double time) {
+  return guarded("cleave_model_initialise", [&] {
+    checked(model).require(Phase::ready,
+                           "cleave_model_initialise comes once, after cleave_model_setup");
+    initialise(*model, time);
+  });
+}
+
+int32_t cleave_model_advance(cleave_model* model, double dt, double time_new) {
+  return guarded("cleave_model_advance", [&] {
+    checked(model).require(
+        Phase::stepping,
+        "cleave_model_advance comes after cleave_model_initialise or cleave_model_update");
+    advance(*model, dt, time_new);
+  });
+}
+
+int32_t cleave_model_update(cleave_model* model) {
+  return guarded("cleave_model_update", [&] {
+    checked(model).require(Phase::advanced, "cleave_model_update comes after cleave_model_advance");
+    update(*model);
+  });
+}
+
+int32_t cleave_body_event_count(cleave_model* model, int64_t body, int64_t* count) {
+  return guarded("cleave_body_event_count", [&] {
+    required(count, "count") = static_cast<int64_t>(checked(model).body(body).events.size());
+  });
+}
+
+int32_t cleave_body_event_get(cleave_model* model, int64_t body, int64_t index,
+                              cleave_event* event) {
+  return guarded("cleave_body_event_get", [&] {
+    const auto& events = checked(model).body(body).events;
+    check_range(index, index + 1, static_cast<int64_t>(events.size()));
+    fill_sized(event, events[static_cast<std::size_t>(index)], "event");
+  });
+}
+
+int32_t cleave_body_clear_events(cleave_model* model, int64_t body) {
+  return guarded("cleave_body_clear_events", [&] { checked(model).body(body).events.clear(); });
+}
+
+int32_t cleave_energies_get(cleave_model* model, int64_t body, cleave_energies* energies_out) {
+  return guarded("cleave_energies_get", [&] {
+    checked(model).require_set_up();
+    fill_sized(energies_out,
+               one_or_all<cleave_energies>(*model, body, [](const Body& b) { return energies(b); }),
+               "energies");
+  });
+}
+
+int32_t cleave_counts_get(cleave_model* model, int64_t body, cleave_counts* counts_out) {
+  return guarded("cleave_counts_get", [&] {
+    checked(model).require_set_up();
+    fill_sized(counts_out,
+               one_or_all<cleave_counts>(*model, body, [](const Body& b) { return counts(b); }),
+               "counts");
+  });
+}
+
+int32_t cleave_model_memory(cleave_model* model, int64_t* bytes) {
+  return guarded("cleave_model_memory", [&] {
+    int64_t sum = 0;
+    for (const auto& b : checked(model).bodies) sum += b->fields.bytes() + b->formulation->bytes();
+    required(bytes, "bytes") = sum;
+  });
+}
+
+int32_t cleave_body_reaction(cleave_model* model, int64_t body, int64_t count,
+                             const int64_t* particle, double force[3]) {
+  return guarded("cleave_body_reaction", [&] {
+    checked(model).require_set_up();
+    required(force, "force");
+    reaction(model->body(body), span_of(particle, count, "particle"), force);
+  });
+}
+
+int32_t cleave_model_restore(cleave_model* model, int64_t step, double time) {
+  return guarded("cleave_model_restore", [&] {
+    checked(model).require(Phase::ready,
+                           "cleave_model_restore comes after cleave_model_setup and the fields, "
+                           "instead of cleave_model_initialise");
+    if (step < 0) throw Error(CLEAVE_BAD_ARGUMENT, text("step is ", step, "; allowed: >= 0"));
+    restore(*model, step, time);
+  });
+}
+
+int32_t cleave_model_clock(cleave_model* model, int64_t* step, double* time) {
+  return guarded("cleave_model_clock", [&] {
+    required(step, "step") = checked(model).clock.step;
+    required(time, "time") = model->clock.time;
+  });
+}
+
+}  // extern "C"

@@ -1,0 +1,75 @@
+// The bonds of a simplex mesh: which particles are neighbours, bond vectors, averaging volumes.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "formulation/cbm/simplices.hpp"
+
+namespace cleave::cbm {
+
+// Neighbours of particle i: all other corners of its simplices, sorted, without repeats.
+template <class Index>
+void collect_neighbours(const Incidence& incidence, const Index* simplices, int corners, int stride,
+                        std::int64_t i, std::vector<Index>& out) {
+  out.clear();
+  for (auto k = incidence.begin[static_cast<std::size_t>(i)];
+       k < incidence.begin[static_cast<std::size_t>(i + 1)]; ++k) {
+    const Index* nodes = simplices + static_cast<std::int64_t>(stride) *
+                                         incidence.simplex[static_cast<std::size_t>(k)];
+    for (int a = 0; a < corners; ++a) {
+      if (nodes[a] != static_cast<Index>(i)) out.push_back(nodes[a]);
+    }
+  }
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+}
+
+// Index of the half-bond from i to p, or -1.
+template <class Index, class Offset>
+Offset find_half_bond(const Offset* row_begin, const Index* neighbour, std::int64_t i, Index p) {
+  const Index* first = neighbour + row_begin[i];
+  const Index* last = neighbour + row_begin[i + 1];
+  const Index* at = std::lower_bound(first, last, p);
+  return at != last && *at == p ? static_cast<Offset>(at - neighbour) : Offset{-1};
+}
+
+// Fills `reverse` of all half-bonds.
+template <class Index, class Offset>
+void fill_reverse(std::int64_t particles, const Offset* row_begin, const Index* neighbour,
+                  Offset* reverse) {
+  for (std::int64_t i = 0; i < particles; ++i) {
+    for (Offset b = row_begin[i]; b < row_begin[i + 1]; ++b) {
+      reverse[b] = find_half_bond(row_begin, neighbour, neighbour[b], static_cast<Index>(i));
+    }
+  }
+}
+
+// Row i from its live simplices, always summed in ascending order of simplices, so that a rebuilt
+// row has the bits of one built at once:  Omega_i = sum Omega_L/n,  zeta_ip = sum (Omega_L/n)
+// g_p^L.   [CBM 1, 4-9] alive: nullptr: all.
+template <int D, class Index, class Offset>
+void rebuild_row(const double* X, const Index* simplices, int stride, const std::int32_t* alive,
+                 const Incidence& incidence, const Offset* row_begin, const Index* neighbour,
+                 std::int64_t i, double* zeta, double* volume) {
+  for (Offset b = row_begin[i]; b < row_begin[i + 1]; ++b)
+    for (int k = 0; k < kVector; ++k) zeta[kVector * b + k] = 0;
+  volume[i] = 0;
+  for (auto k = incidence.begin[static_cast<std::size_t>(i)];
+       k < incidence.begin[static_cast<std::size_t>(i + 1)]; ++k) {
+    const std::int64_t s = incidence.simplex[static_cast<std::size_t>(k)];
+    if (alive != nullptr && alive[s] == 0) continue;
+    const Index* nodes = simplices + stride * s;
+    const SimplexGeometry<D> geometry = simplex_geometry<D>(X, nodes);
+    const double share = geometry.volume / (D + 1);
+    volume[i] += share;
+    for (int a = 0; a <= D; ++a) {
+      if (nodes[a] == static_cast<Index>(i)) continue;
+      const Offset b = find_half_bond(row_begin, neighbour, i, nodes[a]);
+      for (int c = 0; c < D; ++c) zeta[kVector * b + c] += share * geometry.gradient[a][c];
+    }
+  }
+}
+
+}  // namespace cleave::cbm

@@ -1,0 +1,207 @@
+#include "formulation/cbm/cbm.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/gradient_operator.hpp"
+
+namespace cleave::cbm {
+
+namespace {
+
+// dt <= kSafety (l_min/c0) / (1 + 2.5 beta): below every measured limit 2/omega_max of regular and
+// jittered patches, with the viscosity lagged by half a step. c0 is the plane-wave (plate) speed.
+constexpr double kSafety = 0.9;
+constexpr double kViscousReduction = 2.5;
+
+double wave_speed(const Body& body) {
+  return with_law(body.material, [](const auto& law) { return law.wave_speed(); });
+}
+
+}  // namespace
+
+void ContinuumBondMethod::setup(Body& body) {
+  network_.build(body);
+  const double density = with_law(body.material, [](const auto& law) { return law.density(); });
+  for (std::int64_t i = 0; i < body.particles; ++i)
+    body.point.mass[i] = density * network_.volume[i];
+  setup_viscosity(body);
+  stabilisation_.setup(body, network_);
+  fracture_.setup(body, network_);
+  failed_.assign(static_cast<std::size_t>(block_count(body.particles)), -1);
+}
+
+void ContinuumBondMethod::setup_viscosity(const Body& body) {
+  const ParameterSet& options = body.group("viscosity");
+  viscosity_ = options.any_given() ? static_cast<ViscosityForm>(options.choice("form"))
+                                   : ViscosityForm::none;
+  beta_ = options.real("beta");
+  if (beta_ == 0) viscosity_ = ViscosityForm::none;
+  if (viscosity_ == ViscosityForm::none) {
+    beta_ = 0;
+    return;
+  }
+  const double density = with_law(body.material, [](const auto& law) { return law.density(); });
+  bond_rate_.beta_rho_c = beta_ * density * wave_speed(body);
+  if (options.choice("length_mode") == static_cast<int>(LengthMode::local)) {
+    bond_rate_.lengths = network_.length;
+    bond_rate_.bond_of_half = network_.bond_of_half.data();
+  } else {
+    bond_rate_.length = options.real("length");
+    if (bond_rate_.length == 0) {
+      throw Error(
+          CLEAVE_MISSING_PARAMETER,
+          text("group viscosity of ", body.label(),
+               " needs length > 0 (the spacing of the refined region), or length_mode 'local'"));
+    }
+  }
+}
+
+void ContinuumBondMethod::rebuild(Body& body, int threads) {
+  network_.rebuild(body, threads);
+  body.dimension() == 2 ? gradients<2>(body, threads) : gradients<3>(body, threads);
+}
+
+double ContinuumBondMethod::stable_step(const Body& body) const {
+  const double shortest = *std::min_element(network_.length, network_.length + network_.bonds);
+  return kSafety * shortest / wave_speed(body) / (1 + kViscousReduction * beta_);
+}
+
+void ContinuumBondMethod::break_bonds(Body& body, const Clock& clock, int threads) {
+  fracture_.step(body, network_, stabilisation_, clock, threads);
+}
+
+void ContinuumBondMethod::precrack(Body& body, std::span<const std::int64_t> pairs) {
+  fracture_.precrack(body, network_, pairs);
+}
+
+template <int D>
+void ContinuumBondMethod::gradients(Body& body, int threads) {
+  const Operator g = network_.gradient();
+  for_blocks(threads, body.particles, [&](std::int64_t, std::int64_t first, std::int64_t last) {
+    displacement_gradient<D>(g, body.point.u, first, last, body.point.h);
+    for (std::int64_t i = first; i < last; ++i) {
+      body.point.ratio[i] = determinant(plus_identity(load_tensor<D>(body.point.h, i)));
+    }
+  });
+}
+
+template <int D>
+void ContinuumBondMethod::stresses(Body& body, int threads) {
+  with_law(body.material, [&](const auto& law) {
+    for_blocks(threads, body.particles,
+               [&](std::int64_t block, std::int64_t first, std::int64_t last) {
+                 failed_[static_cast<std::size_t>(block)] =
+                     update_stress<D>(law, body.point.h, network_.volume, first, last, body.history,
+                                      body.point.p, body.point.energy, nullptr);
+               });
+  });
+  for (const std::int64_t i : failed_) {
+    if (i < 0) continue;
+    throw Error(CLEAVE_BAD_JACOBIAN,
+                text(body.label(), ": law ", body.law->name, " has no answer at particle ", i,
+                     " (det F = ", body.point.ratio[i],
+                     "); the deformation is outside its range: use a smaller step, "
+                     "stabilisation, or another law"));
+  }
+}
+
+void ContinuumBondMethod::deform(Body& body, int threads) {
+  if (body.dimension() == 2) {
+    gradients<2>(body, threads);
+    stresses<2>(body, threads);
+  } else {
+    gradients<3>(body, threads);
+    stresses<3>(body, threads);
+  }
+}
+
+template <int D>
+void ContinuumBondMethod::viscous_force(Body& body, std::int64_t first, std::int64_t last) const {
+  const Operator g = network_.gradient();
+  const PointArrays& pt = body.point;
+  switch (viscosity_) {
+    case ViscosityForm::none:
+      break;
+    case ViscosityForm::frozen:
+      viscous_force_frozen<D>(g, bond_rate_, network_.weight, pt.x, pt.v, pt.ratio, first, last,
+                              pt.viscous);
+      break;
+    case ViscosityForm::central:
+      viscous_force_deformed<D, true>(g, bond_rate_, pt.x, pt.v, pt.h, pt.ratio, first, last,
+                                      pt.viscous);
+      break;
+    case ViscosityForm::paper:
+      viscous_force_deformed<D, false>(g, bond_rate_, pt.x, pt.v, pt.h, pt.ratio, first, last,
+                                       pt.viscous);
+      break;
+  }
+}
+
+template <int D>
+void ContinuumBondMethod::forces_in(Body& body, int threads) {
+  const Operator g = network_.gradient();
+  const double* stress = stabilisation_.active()
+                             ? stabilisation_.bond_stress<D>(body, network_, threads)
+                             : body.point.p;
+  for_blocks(threads, body.particles, [&](std::int64_t, std::int64_t first, std::int64_t last) {
+    std::fill(body.point.internal + kVector * first, body.point.internal + kVector * last, 0.0);
+    std::fill(body.point.viscous + kVector * first, body.point.viscous + kVector * last, 0.0);
+    internal_force<D>(g, stress, first, last, body.point.internal);
+    if (stabilisation_.active())
+      stabilisation_.add_force<D>(network_, first, last, body.point.internal);
+    viscous_force<D>(body, first, last);
+  });
+}
+
+void ContinuumBondMethod::forces(Body& body, int threads) {
+  body.dimension() == 2 ? forces_in<2>(body, threads) : forces_in<3>(body, threads);
+}
+
+StoredEnergy ContinuumBondMethod::stored_energy(const Body& body) const {
+  StoredEnergy e;
+  for (std::int64_t i = 0; i < body.particles; ++i)
+    e.elastic += network_.volume[i] * body.point.energy[i];
+  e.elastic *= stabilisation_.particle_share();
+  e.plastic = body.point.ledger[ledger::kPlastic];
+  e.stabilisation = body.dimension() == 2 ? stabilisation_.energy<2>(body, network_)
+                                          : stabilisation_.energy<3>(body, network_);
+  return e;
+}
+
+double ContinuumBondMethod::hourglass_energy(const Body& body) const {
+  const double mu = with_law(body.material, [](const auto& law) { return law.shear_modulus(); });
+  return body.dimension() == 2 ? cbm::hourglass_energy<2>(body, network_, mu)
+                               : cbm::hourglass_energy<3>(body, network_, mu);
+}
+
+void ContinuumBondMethod::count(const Body& body, cleave_counts& counts) const {
+  counts.bonds += network_.bonds;
+  counts.simplices += network_.simplices;
+  counts.broken += std::count(network_.status, network_.status + network_.bonds, kBroken);
+  counts.inert += std::count(network_.status, network_.status + network_.bonds, kInert);
+  for (std::int64_t i = 0; i < body.particles; ++i) {
+    if (!(network_.volume[i] > 0)) {
+      ++counts.isolated;
+    } else if (!(body.point.ratio[i] > 0)) {
+      ++counts.inverted;
+    }
+  }
+}
+
+bool ContinuumBondMethod::derive(const Body& body, std::string_view field, std::int64_t first,
+                                 std::int64_t last, double* values) const {
+  if (field != "damage") return false;
+  const double density = with_law(body.material, [](const auto& law) { return law.density(); });
+  for (std::int64_t i = first; i < last; ++i) {
+    // Rounding of mass = rho Omega(0) must not show as damage of an intact particle.
+    const double intact = body.point.mass[i] / density;
+    const double damage = 1 - network_.volume[i] / intact;
+    values[i - first] = std::fabs(damage) < 1e-14 ? 0.0 : damage;
+  }
+  return true;
+}
+
+std::int64_t ContinuumBondMethod::bytes() const { return network_.bytes(); }
+
+}  // namespace cleave::cbm

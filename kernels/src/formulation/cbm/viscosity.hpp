@@ -1,0 +1,94 @@
+// Artificial viscosity of bonds in its three forms. All act on the rate of the bond
+//   rate_ip = v_ip . x_ip / (|x_ip|^2 + 0.01 l^2),  positive when it extends               [CBM 22]
+// with the pressure beta l rho0 c0 rate [CBM 21], and pull extending ends together.
+//
+// Published with the opposite sign of the elastic force (23); corrected here. It acts across every
+// bond that still carries a simplex, never across an open crack.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "core/gradient_operator.hpp"
+
+namespace cleave::cbm {
+
+// Coefficient beta rho0 c0 [Pa s m-1] and the length l of a bond.
+template <class Index>
+struct BondRate {
+  double beta_rho_c = 0;
+  double length = 0;                    // constant l [m] ...
+  const double* lengths = nullptr;      // ... or, if not NULL, l of every undirected bond
+  const Index* bond_of_half = nullptr;  // needed with lengths
+
+  template <class Offset>
+  double length_of(Offset half) const {
+    return lengths == nullptr ? length : lengths[bond_of_half[half]];
+  }
+  // beta l rho0 c0 rate [Pa]
+  template <int D>
+  double pressure(const Vec<D>& x, const Vec<D>& v, double l) const {
+    return beta_rho_c * l * dot(v, x) / (dot(x, x) + 0.01 * l * l);
+  }
+};
+
+// Force on i: + pressure (w_ip J_i + w_pi J_p) x_ip / |x_ip|^2, J clipped at 0. Central, so both
+// momenta are exact; its power is never positive; needs no gradient of the other end. [in]  x, v
+// (3,n)   [in] ratio (n) det F   [in] w (h) bond weights [m3]   [in,out] f (3,n)
+template <int D, class Index, class Offset>
+void viscous_force_frozen(const GradientOperator<Index, Offset>& g, const BondRate<Index>& rate,
+                          const double* w, const double* x, const double* v, const double* ratio,
+                          std::int64_t first, std::int64_t last, double* f) {
+  for (std::int64_t i = first; i < last; ++i) {
+    Vec<D> sum;
+    for (Offset b = g.row_begin[i]; b < g.row_begin[i + 1]; ++b) {
+      const std::int64_t p = g.neighbour[b];
+      const double weight =
+          w[b] * std::fmax(0.0, ratio[i]) + w[g.reverse[b]] * std::fmax(0.0, ratio[p]);
+      const Vec<D> xip = difference<D>(x, i, p);
+      const double square = dot(xip, xip);
+      if (!(weight > 0) || !(square > 0))
+        continue;  // no live simplex, or ends that coincide: no direction
+      const double scale =
+          rate.template pressure<D>(xip, difference<D>(v, i, p), rate.length_of(b)) * weight /
+          square;
+      for (int k = 0; k < D; ++k) sum[k] += scale * xip[k];
+    }
+    for (int k = 0; k < D; ++k) f[kVector * i + k] += sum[k];
+  }
+}
+
+// Force on i: + pressure g_ip with g_ip = J_i F_i^-T zeta_ip - J_p F_p^-T zeta_pi ("paper", [CBM
+// 23] with the right sign), or its clipped projection max(0, g_ip . n) n on the bond direction
+// ("central"), for which the power of every pair is never positive. An end with J <= 0 does not
+// contribute. [in]  h (9,n) displacement gradient   [in] ratio (n) det F
+template <int D, bool Central, class Index, class Offset>
+void viscous_force_deformed(const GradientOperator<Index, Offset>& g, const BondRate<Index>& rate,
+                            const double* x, const double* v, const double* h, const double* ratio,
+                            std::int64_t first, std::int64_t last, double* f) {
+  const auto area = [&](std::int64_t end, Offset half) {
+    if (!(ratio[end] > 0)) return Vec<D>{};
+    return multiply(cofactor(plus_identity(load_tensor<D>(h, end))), load_vector<D>(g.zeta, half));
+  };
+  for (std::int64_t i = first; i < last; ++i) {
+    Vec<D> sum;
+    for (Offset b = g.row_begin[i]; b < g.row_begin[i + 1]; ++b) {
+      const std::int64_t p = g.neighbour[b];
+      const Vec<D> xip = difference<D>(x, i, p);
+      const double pressure =
+          rate.template pressure<D>(xip, difference<D>(v, i, p), rate.length_of(b));
+      const Vec<D> own = area(i, b), other = area(p, g.reverse[b]);
+      Vec<D> direction;
+      for (int k = 0; k < D; ++k) direction[k] = own[k] - other[k];
+      if constexpr (Central) {
+        const double square = dot(xip, xip);
+        const double projected = square > 0 ? std::fmax(0.0, dot(direction, xip)) / square : 0.0;
+        for (int k = 0; k < D; ++k) direction[k] = projected * xip[k];
+      }
+      for (int k = 0; k < D; ++k) sum[k] += pressure * direction[k];
+    }
+    for (int k = 0; k < D; ++k) f[kVector * i + k] += sum[k];
+  }
+}
+
+}  // namespace cleave::cbm

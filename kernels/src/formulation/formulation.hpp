@@ -1,0 +1,59 @@
+// What a formulation does for a body. Called a few times a step, never inside a loop over
+// particles.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "cleave/cleave.h"
+
+namespace cleave {
+
+struct Body;
+
+// The step being done: number (1 = first), time at its end, size.
+struct Clock {
+  std::int64_t step = 0;
+  double time = 0;
+  double dt = 0;
+};
+
+struct StoredEnergy {
+  double elastic = 0, plastic = 0, stabilisation = 0;
+};
+
+class Formulation {
+ public:
+  virtual ~Formulation() = default;
+  virtual const char* name() const = 0;  // as in the formulations table
+
+  // Checks the options, allocates the formulation's fields and fills those of lifetime setup.
+  virtual void setup(Body& body) = 0;
+  // All caches from setup and state fields, and whatever the formulation keeps outside fields.
+  virtual void rebuild(Body& body, int threads) = 0;
+  // Largest stable step with its safety [s].
+  virtual double stable_step(const Body& body) const = 0;
+
+  // The parts of a step, in this order.
+  virtual void break_bonds(Body& body, const Clock& clock, int threads) = 0;
+  virtual void deform(Body& body, int threads) = 0;  // displacement gradient, then stress
+  virtual void forces(Body& body, int threads) = 0;  // sets internal and viscous force
+
+  // Breaks bonds before the first step. [in] pairs (2,count)
+  virtual void precrack(Body& body, std::span<const std::int64_t> pairs) = 0;
+
+  virtual StoredEnergy stored_energy(const Body& body) const = 0;
+  virtual double hourglass_energy(const Body& body) const = 0;
+  virtual void count(const Body& body, cleave_counts& counts) const = 0;
+  // Fills a derived field of this formulation; false if it has no field of that name.
+  virtual bool derive(const Body& body, std::string_view field, std::int64_t first,
+                      std::int64_t last, double* values) const = 0;
+  virtual std::int64_t bytes() const = 0;
+};
+
+// Throws UNKNOWN_NAME with the known formulations.
+std::unique_ptr<Formulation> make_formulation(std::int32_t value);
+
+}  // namespace cleave

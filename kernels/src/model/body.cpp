@@ -1,0 +1,92 @@
+#include "model/body.hpp"
+
+#include <cmath>
+
+#include "tables/tables.hpp"
+
+namespace cleave {
+
+Body::Body(const cleave_body_spec& spec, int body_index)
+    : name(spec.name == nullptr ? "" : spec.name),
+      index(body_index),
+      kinematics(static_cast<Kinematics>(spec.kinematics)),
+      particles(spec.particles),
+      law(&find_material(spec.material)),
+      material_parameters(text("material law ", law->name, " of ", label()), law->parameters),
+      formulation(make_formulation(spec.formulation)) {
+  if (spec.kinematics < CLEAVE_3D || spec.kinematics > CLEAVE_PLANE_STRESS) {
+    throw Error(CLEAVE_BAD_ARGUMENT,
+                text(label(), ": kinematics is ", spec.kinematics,
+                     "; allowed: CLEAVE_3D, CLEAVE_PLANE_STRAIN, CLEAVE_PLANE_STRESS"));
+  }
+  if (particles <= 0 || particles >= INT32_MAX) {
+    throw Error(CLEAVE_BAD_ARGUMENT,
+                text(label(), " has ", particles, " particles; allowed: 1 to ", INT32_MAX - 1));
+  }
+  if (spec.simplex_count < 0 || spec.simplex_count >= INT32_MAX) {
+    throw Error(CLEAVE_BAD_ARGUMENT, text(label(), " has ", spec.simplex_count,
+                                          " simplices; allowed: 0 to ", INT32_MAX - 1));
+  }
+  for (std::int64_t k = 0; k < kVector * particles; ++k) {
+    if (!std::isfinite(spec.X[k]) && k % kVector < dimension()) {
+      throw Error(CLEAVE_NOT_FINITE,
+                  text(label(), ": the position of particle ", k / kVector, " is not finite"));
+    }
+  }
+  given_positions.assign(spec.X, spec.X + kVector * particles);
+  given_simplices.assign(spec.simplices, spec.simplices + (dimension() + 1) * spec.simplex_count);
+  for (const auto& g : parameter_groups()) {
+    groups.emplace_back(g.name, ParameterSet(text("group ", g.name, " of ", label()), g.specs));
+  }
+}
+
+ParameterSet& Body::group(std::string_view group_name) {
+  if (group_name == "material") return material_parameters;
+  std::string known = "material";
+  for (auto& [n, set] : groups) {
+    if (group_name == n) return set;
+    known += text(", ", n);
+  }
+  throw Error(CLEAVE_UNKNOWN_NAME,
+              text("parameter group '", group_name, "' is unknown; known groups: ", known));
+}
+
+const ParameterSet& Body::group(std::string_view group_name) const {
+  return const_cast<Body*>(this)->group(group_name);
+}
+
+void Body::make_fields() {
+  fields.declare("core", fields_of("core"));
+  fields.declare(formulation->name(), fields_of(formulation->name()));
+  fields.declare(law->name, law->history);
+  fields.allocate(CLEAVE_RELATION_POINT, particles);
+  fields.allocate(CLEAVE_RELATION_BODY, 1);
+  point = {fields.real("reference_position"),
+           fields.real("position"),
+           fields.real("displacement"),
+           fields.real("velocity"),
+           fields.real("acceleration"),
+           fields.real("mass"),
+           fields.real("internal_force"),
+           fields.real("viscous_force"),
+           fields.real("external_force"),
+           fields.real("displacement_gradient"),
+           fields.real("first_piola_kirchhoff_stress"),
+           fields.real("strain_energy_density"),
+           fields.real("volume_ratio"),
+           fields.real("ledger")};
+  for (std::size_t k = 0; k < law->history.size(); ++k) {
+    history.base[k] = fields.real(law->history[k].name);
+    history.stride[k] = law->history[k].components;
+  }
+  for (std::int64_t i = 0; i < particles; ++i) {
+    for (int k = 0; k < dimension(); ++k) {
+      point.X[kVector * i + k] = given_positions[static_cast<std::size_t>(kVector * i + k)];
+      point.x[kVector * i + k] = point.X[kVector * i + k];
+    }
+  }
+  work.resize(particles);
+  given_positions = {};
+}
+
+}  // namespace cleave

@@ -1,0 +1,68 @@
+// A body: particles with one formulation and one material law, its fields and its prescribed
+// motion.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/blocks.hpp"
+#include "core/error.hpp"
+#include "core/field_store.hpp"
+#include "core/parameter.hpp"
+#include "formulation/formulation.hpp"
+#include "material/material.hpp"
+#include "material/stress.hpp"
+#include "model/ledger.hpp"
+
+namespace cleave {
+
+struct PrescribedDof {
+  std::int32_t particle;
+  std::int32_t direction;
+  cleave_motion motion;
+  double displacement = 0;  // at the end of the step, motion EXACT only
+  double acceleration = 0;
+};
+
+// Raw pointers into the core fields, set when they are allocated.
+struct PointArrays {
+  double *X, *x, *u, *v, *a, *mass, *internal, *viscous, *external, *h, *p, *energy, *ratio,
+      *ledger;
+};
+
+struct Body {
+  Body(const cleave_body_spec& spec, int index);
+
+  std::string label() const { return text("body ", index, " '", name, "'"); }
+  int dimension() const { return dimension_of(kinematics); }
+  ParameterSet& group(std::string_view group_name);
+  const ParameterSet& group(std::string_view group_name) const;
+
+  std::string name;
+  int index;
+  Kinematics kinematics;
+  std::int64_t particles;
+  std::vector<double> given_positions;        // until set-up
+  std::vector<std::int64_t> given_simplices;  // until set-up
+  std::vector<char> exempt;                   // (n) 1: in a zone without fracture; empty: none
+
+  const MaterialEntry* law;
+  ParameterSet material_parameters;
+  std::vector<std::pair<const char*, ParameterSet>> groups;
+  Material material;
+  HistoryArrays history;
+
+  FieldStore fields;
+  PointArrays point{};
+  std::vector<PrescribedDof> prescribed;
+  std::vector<cleave_event> events;
+  std::unique_ptr<Formulation> formulation;
+  BlockSums<3> work;  // per block: internal, viscous, external
+
+  // Declares the fields, allocates those of particles and the body, copies positions.
+  void make_fields();
+};
+
+}  // namespace cleave

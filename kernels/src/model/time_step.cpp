@@ -1,0 +1,178 @@
+// One step of velocity Verlet, in two calls so that the host can set loads between them:
+//   advance   v += dt/2 a,  u += dt v
+//   update    break, gradient, stress, forces, a = f/m, v += dt/2 a
+// and the works of the energy ledger, half a trapezoid in each call.              [CBM 19,
+// Algorithm 1]
+#include <cmath>
+
+#include "model/model.hpp"
+
+namespace cleave {
+
+namespace {
+
+double total_force(const PointArrays& pt, std::int64_t c) {
+  return pt.internal[c] + pt.viscous[c] + pt.external[c];
+}
+
+// f(component of the dof, dof)
+template <class F>
+void for_prescribed(Body& body, const F& f) {
+  for (const auto& dof : body.prescribed) f(kVector * dof.particle + dof.direction, dof);
+}
+
+// Adds half of the trapezoid of the works with the forces now in the arrays and dx = dt v.
+void add_half_work(Body& body, double dt, int threads) {
+  const PointArrays& pt = body.point;
+  for_blocks(threads, body.particles,
+             [&](std::int64_t block, std::int64_t first, std::int64_t last) {
+               double internal = 0, viscous = 0, external = 0;
+               for (std::int64_t c = kVector * first; c < kVector * last; ++c) {
+                 internal += pt.internal[c] * pt.v[c];
+                 viscous += pt.viscous[c] * pt.v[c];
+                 external += pt.external[c] * pt.v[c];
+               }
+               body.work[block] = {internal, viscous, external};
+             });
+  const auto [internal, viscous, external] = body.work.total();
+  double reaction = 0;
+  for_prescribed(body, [&](std::int64_t c, const PrescribedDof& dof) {
+    reaction += (pt.mass[dof.particle] * pt.a[c] - total_force(pt, c)) * pt.v[c];
+  });
+  const double half = 0.5 * dt;
+  pt.ledger[ledger::kInternal] -= half * internal;
+  pt.ledger[ledger::kViscous] -= half * viscous;
+  pt.ledger[ledger::kExternal] += half * external;
+  pt.ledger[ledger::kReaction] += half * reaction;
+}
+
+void kick(Body& body, double half, int threads) {
+  const PointArrays& pt = body.point;
+  for_blocks(threads, body.particles, [&](std::int64_t, std::int64_t first, std::int64_t last) {
+    for (std::int64_t c = kVector * first; c < kVector * last; ++c) pt.v[c] += half * pt.a[c];
+  });
+}
+
+void accelerate(Body& body, int threads) {
+  const PointArrays& pt = body.point;
+  for_blocks(threads, body.particles, [&](std::int64_t, std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i) {
+      const double inverse = 1 / pt.mass[i];
+      for (int k = 0; k < body.dimension(); ++k) {
+        pt.a[kVector * i + k] = total_force(pt, kVector * i + k) * inverse;
+      }
+    }
+  });
+  for_prescribed(body,
+                 [&](std::int64_t c, const PrescribedDof& dof) { pt.a[c] = dof.acceleration; });
+}
+
+// The first step fixes what the balance is measured from. A prescribed velocity that jumps at the
+// start is taken as v(t0) = v(t0+dt/2) - dt/2 a(t0), so that the integrator's identity holds for it
+// too.
+void start_ledger(Body& body, double dt) {
+  const PointArrays& pt = body.point;
+  for_prescribed(body, [&](std::int64_t c, const PrescribedDof& dof) {
+    if (dof.motion == CLEAVE_MOTION_EXACT)
+      pt.v[c] = (dof.displacement - pt.u[c]) / dt - 0.5 * dt * pt.a[c];
+  });
+  pt.ledger[ledger::kLastStep] = dt;
+  const cleave_energies e = energies(body);
+  pt.ledger[ledger::kStartTotal] = e.kinetic + e.elastic + e.plastic + e.stabilisation;
+  pt.ledger[ledger::kStartStaggered] = e.kinetic_staggered;
+  pt.ledger[ledger::kStarted] = 1;
+}
+
+void advance_body(Body& body, double dt, int threads) {
+  const PointArrays& pt = body.point;
+  if (!(pt.ledger[ledger::kStarted] > 0)) start_ledger(body, dt);
+  pt.ledger[ledger::kLastStep] = dt;
+  kick(body, 0.5 * dt, threads);
+  for_prescribed(body, [&](std::int64_t c, const PrescribedDof& dof) {
+    if (dof.motion == CLEAVE_MOTION_EXACT) pt.v[c] = (dof.displacement - pt.u[c]) / dt;
+  });
+  add_half_work(body, dt, threads);
+  for_blocks(threads, body.particles, [&](std::int64_t, std::int64_t first, std::int64_t last) {
+    for (std::int64_t c = kVector * first; c < kVector * last; ++c) {
+      pt.u[c] += dt * pt.v[c];
+      pt.x[c] = pt.X[c] + pt.u[c];
+    }
+  });
+  for_prescribed(body, [&](std::int64_t c, const PrescribedDof& dof) {
+    if (dof.motion != CLEAVE_MOTION_EXACT) return;
+    pt.u[c] = dof.displacement;
+    pt.x[c] = pt.X[c] + pt.u[c];
+  });
+}
+
+// The works see every force and velocity: if they are finite, so is the step. Only otherwise the
+// culprit is looked for.
+void check_finite(Body& body, const Clock& clock) {
+  const PointArrays& pt = body.point;
+  const double sum = pt.ledger[ledger::kInternal] + pt.ledger[ledger::kViscous] +
+                     pt.ledger[ledger::kExternal] + pt.ledger[ledger::kReaction] +
+                     pt.ledger[ledger::kFracture];
+  if (std::isfinite(sum)) return;
+  for (const char* name : {"external_force", "displacement", "first_piola_kirchhoff_stress",
+                           "internal_force", "viscous_force", "velocity"}) {
+    const Field& f = *body.fields.find(name);
+    for (std::size_t k = 0; k < f.real.size(); ++k) {
+      if (std::isfinite(f.real[k])) continue;
+      const std::size_t i = k / static_cast<std::size_t>(f.spec.components);
+      throw Error(CLEAVE_NOT_FINITE,
+                  text(body.label(), ": field ", name, " of particle ", i,
+                       " is not finite at step ", clock.step, ", time ", clock.time,
+                       "; a smaller step, viscosity or stabilisation may help"));
+    }
+  }
+  throw Error(CLEAVE_NOT_FINITE, text(body.label(), ": the energy ledger is not finite at step ",
+                                      clock.step, ", time ", clock.time));
+}
+
+}  // namespace
+
+void initialise(cleave_model& model, double time) {
+  model.clock = {0, time, 0};
+  for (auto& body : model.bodies) {
+    for (std::int64_t c = 0; c < kVector * body->particles; ++c)
+      body->point.x[c] = body->point.X[c] + body->point.u[c];
+    body->formulation->deform(*body, model.threads);
+    body->formulation->forces(*body, model.threads);
+    accelerate(*body, model.threads);
+  }
+  model.phase = cleave_model::Phase::stepping;
+}
+
+void advance(cleave_model& model, double dt, double time_new) {
+  if (!(dt > 0) || !std::isfinite(dt)) {
+    throw Error(CLEAVE_BAD_ARGUMENT, text("the time step is ", dt, "; allowed: > 0 and finite"));
+  }
+  for (auto& body : model.bodies) advance_body(*body, dt, model.threads);
+  model.clock = {model.clock.step + 1, time_new, dt};
+  model.phase = cleave_model::Phase::advanced;
+}
+
+void update(cleave_model& model) {
+  for (auto& body : model.bodies) {
+    body->formulation->break_bonds(*body, model.clock, model.threads);
+    body->formulation->deform(*body, model.threads);
+    body->formulation->forces(*body, model.threads);
+    accelerate(*body, model.threads);
+    add_half_work(*body, model.clock.dt, model.threads);
+    kick(*body, 0.5 * model.clock.dt, model.threads);
+    check_finite(*body, model.clock);
+  }
+  model.phase = cleave_model::Phase::stepping;
+}
+
+void restore(cleave_model& model, std::int64_t step, double time) {
+  for (auto& body : model.bodies) {
+    for (std::int64_t c = 0; c < kVector * body->particles; ++c)
+      body->point.x[c] = body->point.X[c] + body->point.u[c];
+    body->formulation->rebuild(*body, model.threads);
+  }
+  model.clock = {step, time, 0};
+  model.phase = cleave_model::Phase::stepping;
+}
+
+}  // namespace cleave

@@ -1,0 +1,22 @@
+// A square with a meshed crack: the line group "crack" is where split.nml doubles the nodes. Lengths in mm.
+h = 0.5;
+Point(1) = {0, 0, 0, h};
+Point(2) = {10, 0, 0, h};
+Point(3) = {10, 10, 0, h};
+Point(4) = {0, 10, 0, h};
+Point(5) = {0, 5, 0, h};
+Point(6) = {4, 5, 0, h};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 5};
+Line(5) = {5, 1};
+Line(6) = {5, 6};
+Curve Loop(1) = {1, 2, 3, 4, 5};
+Plane Surface(1) = {1};
+Line{6} In Surface{1};
+Physical Curve("bottom") = {1};
+Physical Curve("top") = {3};
+Physical Curve("crack") = {6};
+Physical Surface("plate") = {1};
+Mesh.Algorithm = 5;

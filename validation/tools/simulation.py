@@ -1,0 +1,129 @@
+"""Makes a mesh with gmsh, writes the deck of a run, runs cleave, hands back its files.
+
+Every run has a folder of its own below the work folder, with the deck that reproduces it.
+"""
+import dataclasses
+import functools
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import time
+
+from . import deck as decks
+from . import results
+
+
+class RunError(Exception):
+    """gmsh or cleave could not do its part."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Mesh:
+    """A .geo file and the parameters given to it; the mesh file is called as the deck expects it."""
+
+    geometry: str
+    parameters: tuple = ()
+    file: str = "plate.msh"
+    dimension: int = 2
+
+    def arguments(self):
+        return [word for name, value in self.parameters for word in ("-setnumber", name, repr(value))]
+
+
+@dataclasses.dataclass(frozen=True)
+class Run:
+    """One run of a case: name, deck, what is changed in it (group.key -> value), mesh if it needs one."""
+
+    name: str
+    deck: str
+    changes: dict = dataclasses.field(default_factory=dict)
+    mesh: Mesh | None = None
+
+
+class Result:
+    """Files of a finished run; everything is read when it is asked for."""
+
+    def __init__(self, run, folder, wall=float("nan")):
+        self.run, self.folder, self.wall = run, pathlib.Path(folder), wall
+
+    def path(self, ending):
+        return self.folder / (self.run.name + ending)
+
+    @functools.cached_property
+    def exodus(self):
+        return results.Exodus(self.path(".exo"))
+
+    @functools.cached_property
+    def history(self):
+        return results.read_table(self.path(".history.nc"))
+
+    @functools.cached_property
+    def events(self):
+        return results.read_table(self.path(".events.nc"))
+
+
+def find_cleave(given, root):
+    """The executable: --cleave, the environment variable CLEAVE, or the release build."""
+    path = given or os.environ.get("CLEAVE") or str(pathlib.Path(root) / "build/release/bin/cleave")
+    found = shutil.which(path)
+    if found is None:
+        raise RunError(f"no executable at {path}.\nBuild it (./bootstrap build) or name it with --cleave PATH or the environment "
+                       "variable CLEAVE.")
+    return os.path.abspath(found)
+
+
+def make_mesh(mesh, case_folder, folder):
+    gmsh = shutil.which("gmsh")
+    if gmsh is None:
+        raise RunError("the program gmsh is not on PATH; it makes the meshes (Debian: apt-get install gmsh)")
+    target = folder / mesh.file
+    command = [gmsh, f"-{mesh.dimension}", "-v", "2", "-nt", "1", str(pathlib.Path(case_folder) / mesh.geometry), *mesh.arguments(),
+               "-o", str(target)]
+    done = subprocess.run(command, capture_output=True, text=True)
+    if done.returncode != 0 or not target.exists():
+        raise RunError(f"gmsh failed: {' '.join(command)}\n{done.stdout}{done.stderr}")
+
+
+def _last_line(log):
+    with open(log, "rb") as file:
+        file.seek(max(0, log.stat().st_size - 400))
+        lines = file.read().decode(errors="replace").replace("\r", "\n").strip().splitlines()
+    return lines[-1] if lines else ""
+
+
+def _wait(process, log, label):
+    """Waits; shows the run's own status line on a terminal."""
+    live = sys.stderr.isatty()
+    while True:
+        try:
+            process.wait(timeout=1.0)
+        except subprocess.TimeoutExpired:
+            if live:
+                print(f"\r\033[K{label} {_last_line(log)}"[: shutil.get_terminal_size().columns + 4], end="", file=sys.stderr, flush=True)
+            continue
+        if live:
+            print("\r\033[K", end="", file=sys.stderr)
+        return process.returncode
+
+
+def execute(run, case_folder, folder, cleave, threads, label=""):
+    """Does the run in `folder` and returns its Result."""
+    folder = pathlib.Path(folder)
+    if folder.exists():
+        shutil.rmtree(folder)
+    folder.mkdir(parents=True)
+    if run.mesh:
+        make_mesh(run.mesh, case_folder, folder)
+    text = (pathlib.Path(case_folder) / run.deck).read_text(encoding="utf-8")
+    (folder / f"{run.name}.nml").write_text(decks.vary(text, run.changes), encoding="utf-8")
+    log = folder / f"{run.name}.log"
+    started = time.monotonic()
+    with open(log, "w", encoding="utf-8") as output:
+        process = subprocess.Popen([cleave, f"{run.name}.nml", "--threads", str(threads)], cwd=folder, stdout=output,
+                                   stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL)
+        status = _wait(process, log, label)
+    if status != 0:
+        raise RunError(f"cleave ended with {status}; the end of {log}:\n" + "\n".join(log.read_text(errors="replace").splitlines()[-12:]))
+    return Result(run, folder, time.monotonic() - started)

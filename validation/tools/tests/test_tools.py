@@ -1,0 +1,141 @@
+"""Decks, measures of cracks, result reader and picture, on made-up data with known answers."""
+import pathlib
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]))
+import netCDF4  # noqa: E402
+import numpy  # noqa: E402
+from tools import cracks, deck, picture, results  # noqa: E402
+
+DECK = """! a deck
+&run
+  t_end = 1e-3, units = 'SI'   ! t_end = 5
+/
+&load
+  value = 0
+/
+&load
+  Value = 1.5 ! up
+  set   = 'top, left'
+/
+"""
+
+
+class Decks(unittest.TestCase):
+    def test_values_are_replaced_and_nothing_else(self):
+        changed = deck.vary(DECK, {"run.t_end": 2e-6, "run.units": "it's", "load(2).value": [1, 2], "load(2).set": "a"})
+        expected = DECK.replace("t_end = 1e-3, units = 'SI'", "t_end = 2e-06, units = 'it''s'")
+        expected = expected.replace("Value = 1.5 ! up", "Value = 1, 2 ! up").replace("'top, left'", "'a'")
+        self.assertEqual(changed, expected)
+
+    def test_logical(self):
+        self.assertIn("value = .false.", deck.vary(DECK, {"load.value": False}))
+
+    def test_what_is_not_there_is_named(self):
+        for change, message in (({"run.speed": 1}, "no key 'speed'"), ({"runs.t_end": 1}, "no group &runs"),
+                                ({"load(3).value": 1}, "number 3"), ({"t_end": 1}, "group.key")):
+            with self.assertRaisesRegex(deck.DeckError, message):
+                deck.vary(DECK, change)
+
+
+class Cracks(unittest.TestCase):
+    def test_arrival(self):
+        x, time = numpy.array([1.0, 8.9, 9.1, 9.9]), numpy.array([1.0, 2.0, 4.0, 3.0])
+        self.assertEqual(cracks.arrival_time(x, time, 10.0, 1.0), 3.0)
+        self.assertTrue(numpy.isnan(cracks.arrival_time(x, time, 20.0, 1.0)))
+
+    def test_tip_speed_ignores_what_breaks_behind_the_tip(self):
+        time = numpy.linspace(0, 1, 101)
+        x = numpy.concatenate([3 * time, 0.5 * time])
+        self.assertAlmostEqual(cracks.tip_speed(x, numpy.concatenate([time, time]), 0.5, 2.5), 3.0, places=12)
+        self.assertTrue(numpy.isnan(cracks.tip_speed(x[:2], time[:2], 0.5, 2.5)))
+
+    def test_branches_of_a_fork(self):
+        stem = numpy.arange(0, 10, 0.5)
+        fork = numpy.arange(10, 30, 0.25)
+        x = numpy.concatenate([stem, fork, fork])
+        y = numpy.concatenate([0 * stem, (fork - 10) / 2, (10 - fork) / 2])
+        self.assertEqual(cracks.cracks_at(x, y, 5.0, 0.5), 1)
+        self.assertEqual(cracks.cracks_at(x, y, 20.0, 0.5), 2)
+        self.assertEqual(cracks.cracks_at(x, y, 40.0, 0.5), 0)
+        self.assertEqual(cracks.branches(x, y, 15, 29, 0.5), (2.0, 2))
+        mean, largest = cracks.branches(x, y, 0, 29, 0.5)
+        self.assertTrue(1 < mean < 2 and largest == 2)
+
+    def test_path_distance(self):
+        x = numpy.arange(5.0)
+        self.assertEqual(cracks.path_distance(x, 0 * x, x, 0 * x), 0.0)
+        self.assertEqual(cracks.path_distance(x, 0 * x, x, 0 * x + 2), 2.0)
+
+
+def write_exodus(path, side=6):
+    """A cracked square sheet in the layout of Exodus II."""
+    grid = numpy.arange(side) / 1000
+    points = numpy.array([(x, y) for y in grid for x in grid])
+    corner = [row * side + column for row in range(side - 1) for column in range(side - 1)]
+    triangles = numpy.array([t for k in corner for t in ((k, k + 1, k + side + 1), (k, k + side + 1, k + side))]) + 1
+    with netCDF4.Dataset(path, "w", format="NETCDF3_64BIT_OFFSET") as file:
+        for name, size in (("num_dim", 2), ("num_nodes", len(points)), ("num_el_blk", 1), ("num_el_in_blk1", len(triangles)),
+                           ("num_nod_per_el1", 3), ("len_name", 33), ("num_nod_var", 3), ("num_elem_var", 1), ("time_step", None)):
+            file.createDimension(name, size)
+        for axis in (0, 1):
+            file.createVariable("coord" + "xy"[axis], "f8", ("num_nodes",))[:] = points[:, axis]
+        file.createVariable("connect1", "i4", ("num_el_in_blk1", "num_nod_per_el1"))[:] = triangles
+        for kind, names in (("nod", ["DISPLX", "DISPLY", "damage"]), ("elem", ["status"])):
+            table = file.createVariable(f"name_{kind}_var", "S1", (f"num_{kind}_var", "len_name"))
+            for row, name in enumerate(names):
+                table[row] = netCDF4.stringtochar(numpy.array([name], f"S{33}"))[0]
+        file.createVariable("time_whole", "f8", ("time_step",))[:] = [0.0, 2e-6]
+        fields = [1e-4 * points[:, 0], 0 * points[:, 0], points[:, 0] / points.max()]
+        for number, values in enumerate(fields, 1):
+            file.createVariable(f"vals_nod_var{number}", "f8", ("time_step", "num_nodes"))[:] = numpy.array([0 * values, values])
+        status = file.createVariable("vals_elem_var1eb1", "f8", ("time_step", "num_el_in_blk1"))
+        status[:] = numpy.ones((2, len(triangles)))
+        status[1, 3] = 0
+    return points, triangles - 1
+
+
+class Pictures(unittest.TestCase):
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.path = pathlib.Path(holder.name) / "sheet.exo"
+        self.points, self.triangles = write_exodus(self.path)
+
+    def test_reader(self):
+        result = results.Exodus(self.path)
+        numpy.testing.assert_array_equal(result.points[:, :2], self.points)
+        self.assertTrue(result.is_plane and (result.points[:, 2] == 0).all())
+        numpy.testing.assert_array_equal(result.simplices, self.triangles)
+        numpy.testing.assert_array_equal(result.displacement(1)[:, 0], 1e-4 * self.points[:, 0])
+        self.assertEqual(list(numpy.flatnonzero(~result.alive(1))), [3])
+        self.assertTrue(result.alive(0).all())
+        with self.assertRaisesRegex(KeyError, "it has DISPLX, DISPLY, damage"):
+            result.nodal("demage")
+
+    def test_picture(self):
+        out = self.path.with_suffix(".png")
+        picture.picture(self.path, out, title="sheet")
+        self.assertEqual(out.read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+        image = picture.plt.imread(out)
+        pale, dark = (image[..., :3].max(axis=-1) - image[..., :3].min(axis=-1) > 0.5), image.shape
+        self.assertGreater(pale.mean(), 0.1, "no saturated colour in the picture")
+        self.assertGreater(dark[1], 1200)
+
+    def test_frame_numbers(self):
+        self.assertEqual([picture.frame_number(text, 4) for text in ("last", "first", "2", "-2")], [3, 0, 2, 2])
+        with self.assertRaises(SystemExit):
+            picture.frame_number("4", 4)
+
+    def test_automatic_magnification_is_round(self):
+        displacement = numpy.zeros((2, 2))
+        self.assertEqual(picture.magnification(numpy.array([[0, 0], [1, 1]]), displacement, "auto"), 1.0)
+        displacement[1, 0] = 0.0011
+        self.assertEqual(picture.magnification(numpy.array([[0, 0], [1, 1]]), displacement, "auto"), 20.0)
+        self.assertEqual(picture.magnification(numpy.array([[0, 0], [1, 1]]), displacement, "3"), 3.0)
+
+
+if __name__ == "__main__":
+    unittest.main()
