@@ -163,8 +163,9 @@ std::int64_t read_element(File& file, const ElementType& type, std::int64_t elem
       file.bytes.fail("element " + std::to_string(element_number) + " refers to node " +
                       std::to_string(number) + ", which is not in section $Nodes");
   }
-  if (!type.is_simplex) {
-    file.builder.skip(type.name, 1);
+  if (!type.is_simplex) {  // 2.2 repeats an element once more for every further physical group
+    if (nodes != file.last_skipped) file.builder.skip(type.name, 1);
+    file.last_skipped = nodes;
     return -1;
   }
   if (type.dimension == 0) return nodes[0];

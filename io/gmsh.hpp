@@ -1,9 +1,11 @@
 // Gmsh mesh files, MSH 2.2 and 4.1: what the readers of the two versions share. Internal to io.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -32,6 +34,7 @@ struct File {
   bool has_nodes = false, has_elements = false;
   std::map<EntityKey, std::string> physical_names;
   std::map<EntityKey, std::vector<std::int64_t>> entity_physicals;  // MSH 4.1
+  std::array<std::int64_t, 8> last_skipped{};
 
   File(const std::string& path, std::string_view data) : bytes(path, data), builder(path) {}
 };

@@ -56,26 +56,17 @@ Section::Section(std::span<const Subscript> subscripts, std::span<const Bounds> 
                 " subscripts are given where " + text(static_cast<std::int64_t>(bounds.size())) +
                 " are needed");
   }
-  bool any_range = false;
-  std::int64_t offset = 0;
+  const bool any_range = std::any_of(subscripts.begin(), subscripts.end(),
+                                     [](const Subscript& s) { return s.is_range; });
   std::int64_t pitch = 1;  // elements between neighbours of this dimension
   for (std::size_t d = 0; d < bounds.size(); ++d) {
-    if (subscripts[d].is_range) {
-      const Range range = range_of(subscripts[d], bounds[d]);
-      axes_.push_back({range.first * pitch, range.count, range.stride * pitch});
-      size_ *= range.count;
-      any_range = true;
-    } else {
-      check_inside(subscripts[d].first, bounds[d]);
-      offset += (subscripts[d].first - bounds[d].lower) * pitch;
-    }
+    Subscript s = subscripts[d];
+    if (!any_range) s.has_last = false;  // from here on
+    const Range range = range_of(s, bounds[d]);
+    axes_.push_back({range.first * pitch, range.count, range.stride * pitch});
+    size_ *= range.count;
     pitch *= bounds[d].count;
   }
-  if (!any_range) {
-    axes_ = {{0, total - offset, 1}};
-    size_ = total - offset;
-  }
-  axes_.front().start += offset;
 }
 
 std::int64_t Section::element(std::int64_t k) const {

@@ -17,7 +17,8 @@ struct Bounds {
 
 // The elements that the successive values of `name(subscripts) = ...` fill, first index fastest.
 // - no subscripts: the whole array
-// - only single subscripts, `v(2) = 1, 2, 3`: that element and those after it
+// - only single subscripts, `v(2) = 1, 2, 3`: from there on, as if v(2:) were written; in more
+//   dimensions `m(2,1)` is m(2:,1:)
 // - any range: the elements of the section, and no more
 class Section {
  public:

@@ -23,7 +23,7 @@ enum ExitCode { kDone = 0, kRunFailed = 1, kBadInput = 2 };
 
 // What the words of the command line said.
 struct Words {
-  std::string deck, checkpoint, topic, table, file, format = "text";
+  std::string deck_to_run, deck, checkpoint, topic, table, file, format = "text";
   RunOptions run;
 };
 
@@ -127,7 +127,7 @@ int refuse_usage(const CLI::App& app, const Words& words, const std::string& why
     if (word.starts_with("--") && !nearest.empty())
       std::cerr << "Did you mean " << nearest << "?\n";
   }
-  const std::string command = nearest_name(words.deck, command_names(app));
+  const std::string command = nearest_name(words.deck_to_run, command_names(app));
   if (used == &app && !command.empty())
     std::cerr << "Did you mean \"cleave " << command << " ...\"?\n";
   std::cerr << "Usage: cleave DECK | cleave " << listed(command_names(app))
@@ -136,10 +136,11 @@ int refuse_usage(const CLI::App& app, const Words& words, const std::string& why
 }
 
 int run_words(const CLI::App& app, const Words& words) {
-  if (words.deck.empty()) return refuse_usage(app, words, "no deck and no command is given.");
-  if (!std::filesystem::exists(words.deck) && !nearest_name(words.deck, command_names(app)).empty())
-    return refuse_usage(app, words, "\"" + words.deck + "\" is neither a command nor a file.");
-  return run_deck(read_deck(existing_file(words.deck, "the deck")), words.run);
+  const std::string& deck = words.deck_to_run;
+  if (deck.empty()) return refuse_usage(app, words, "no deck and no command is given.");
+  if (!std::filesystem::exists(deck) && !nearest_name(deck, command_names(app)).empty())
+    return refuse_usage(app, words, "\"" + deck + "\" is neither a command nor a file.");
+  return run_deck(read_deck(existing_file(deck, "the deck")), words.run);
 }
 
 int run_command_line(int argc, char** argv) {
@@ -151,7 +152,7 @@ int run_command_line(int argc, char** argv) {
       "cleave");
   app.set_version_flag("--version", std::string("cleave ") + cleave_version());
   app.require_subcommand(0, 1);
-  app.add_option("DECK", words.deck, "deck to run (Fortran namelist)");
+  app.add_option("DECK", words.deck_to_run, "deck to run (Fortran namelist)");
   add_run_options(app, words);
   add_deck_commands(app, words, chosen);
   add_listing_commands(app, words, chosen);
@@ -162,7 +163,10 @@ int run_command_line(int argc, char** argv) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
     return refuse_usage(app, words, error.what());
   }
-  return chosen ? chosen() : run_words(app, words);
+  if (!chosen) return run_words(app, words);
+  if (!words.deck_to_run.empty())
+    return refuse_usage(app, words, "\"" + words.deck_to_run + "\" stands before the command.");
+  return chosen();
 }
 
 int report(int code, const std::string& message) {

@@ -11,17 +11,22 @@ import pathlib
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from tools import python  # noqa: E402
+
+if __name__ == "__main__":
+    python.ensure(__file__)
 import matplotlib  # noqa: E402
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy  # noqa: E402
 from matplotlib.colors import LinearSegmentedColormap, Normalize  # noqa: E402
+from matplotlib.ticker import MaxNLocator, MultipleLocator  # noqa: E402
 from tools import results  # noqa: E402
 
-# Sound material pale, torn material dark: the crack must be seen at thumbnail size.
-DAMAGE = LinearSegmentedColormap.from_list("damage", ["#dfe8f0", "#f2c14e", "#e0592a", "#a3122f", "#3d0a1e"])
-INK = "#1d2733"
+# Sound material pale on a dark ground, torn material glowing: the crack must be seen at thumbnail size.
+DAMAGE = LinearSegmentedColormap.from_list("damage", ["#dce6ee", "#f7c548", "#ee6c2b", "#c4173a", "#7a0f3c"])
+INK, GROUND = "#1d2733", "#141b26"
 
 
 def frame_number(text, count):
@@ -74,9 +79,15 @@ def draw_plate(axes, result, step, field, deform):
     drawn = axes.tripcolor(shown[:, 0], shown[:, 1], live, facecolors=values[live].mean(axis=1), cmap=cmap, norm=norm,
                            edgecolors="face", linewidth=0.12)
     axes.set_aspect("equal")
-    margin = 0.015 * numpy.ptp(shown, axis=0).max()
-    axes.set_xlim(shown[:, 0].min() - margin, shown[:, 0].max() + margin)
-    axes.set_ylim(shown[:, 1].min() - margin, shown[:, 1].max() + margin)
+    axes.set_facecolor(GROUND)
+    # a fragment that flies off does not shrink the plate
+    low, high = numpy.quantile(shown[numpy.unique(live)], [0.001, 0.999], axis=0)
+    margin = 0.02 * (high - low).max()
+    axes.set_xlim(low[0] - margin, high[0] + margin)
+    axes.set_ylim(low[1] - margin, high[1] + margin)
+    ticks = MaxNLocator(6, steps=[1, 2, 5, 10]).tick_values(0, (high - low).max())
+    axes.xaxis.set_major_locator(MultipleLocator(ticks[1] - ticks[0]))
+    axes.yaxis.set_major_locator(MultipleLocator(ticks[1] - ticks[0]))
     axes.set_xlabel(f"x ({unit})" if unit else "x")
     axes.set_ylabel(f"y ({unit})" if unit else "y")
     return drawn, factor

@@ -41,7 +41,7 @@ std::string hint(const fs::path& path) {
   const std::size_t shown = std::min(kMostShown, names.size());
   return " There are: " +
          listed({names.begin(), names.begin() + static_cast<std::ptrdiff_t>(shown)}) +
-         (shown < names.size() ? ", ..." : "") + ".";
+         (shown < names.size() ? " and more." : ".");
 }
 
 }  // namespace

@@ -20,11 +20,13 @@ std::string default_text(const KeySpec& key) {
 }
 
 // Range, choices, entries or the kind of name.
-std::string allowed_column(const KeySpec& key) {
+std::string allowed_column(const KeySpec& key, TextFormat format = TextFormat::text) {
   if (!key.allowed.refers.empty())
     return "name of a " + key_table().groups_naming(key.allowed.refers);
   if (!key.allowed.names.empty()) return "a name of its own";
   if (key.allowed.is_file) return "path relative to the deck";
+  if (format == TextFormat::markdown && !key.allowed.choices.empty())
+    return listed(key.allowed.choices, "`'", "'`");
   return allowed_text(key.allowed);
 }
 
@@ -73,7 +75,7 @@ TextTable key_columns(const std::vector<KeySpec>& keys) {
   for (const KeySpec& key : keys)
     table.rows.push_back({code(key.name), type_text(key.type),
                           key.required ? "**required**" : code(default_text(key)), units_text(key),
-                          allowed_column(key), with_source(key)});
+                          allowed_column(key, TextFormat::markdown), with_source(key)});
   return table;
 }
 

@@ -1,5 +1,6 @@
 #include "deck/deck_references.hpp"
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <vector>
@@ -24,7 +25,7 @@ std::string line_text(const DeckGroup& group) {
 template <class Visit>
 void for_each_reference(const DeckGroup& group, Visit visit) {
   const std::vector<const KeySpec*> specs = key_specs(group);
-  for (std::size_t i = 0; i < specs.size(); ++i) {
+  for (std::size_t i = 0; i < std::min(specs.size(), group.keys.size()); ++i) {
     const Allowed& allowed = specs[i]->allowed;
     const bool matters = !allowed.names.empty() || !allowed.refers.empty();
     if (matters && std::holds_alternative<std::string>(group.keys[i].value))

@@ -33,7 +33,7 @@ class GroupReader {
     for (const Assignment& assignment : group.assignments) {
       if (spec_.selector.empty() || assignment.full_name() != spec_.selector) continue;
       for (const auto& value : assignment.values)
-        if (const auto* text = std::get_if<std::string>(&value.scalar))
+        if (const auto* text = std::get_if<std::string>(&value.scalar); text && choice_.empty())
           choice_ = text->substr(0, text->find_last_not_of(' ') + 1);
     }
     has_variant_ = spec_.selector.empty() ||

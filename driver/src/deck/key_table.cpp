@@ -30,6 +30,26 @@ double as_real(const io::namelist::Scalar& scalar) {
   return std::get<double>(scalar);
 }
 
+// Of a key that has no default: never used but of the right type.
+KeyValue no_value(KeyType type) {
+  switch (type) {
+    case KeyType::text:
+    case KeyType::choice:
+      return std::string();
+    case KeyType::texts:
+      return std::vector<std::string>();
+    case KeyType::reals:
+      return std::vector<double>();
+    case KeyType::real:
+      return 0.0;
+    case KeyType::integer:
+      return std::int64_t{0};
+    case KeyType::logical:
+      return false;
+  }
+  return {};
+}
+
 KeyValue default_value(KeyType type, const std::string& text) {
   switch (type) {
     case KeyType::text:
@@ -66,7 +86,7 @@ KeySpec make_key(const char* name, KeyType type, const std::string& default_text
   key.name = name;
   key.type = type;
   key.required = default_text == "required";
-  if (!key.required) key.default_value = default_value(type, default_text);
+  key.default_value = key.required ? no_value(type) : default_value(type, default_text);
   key.units = units;
   key.allowed = parse_allowed(type, range);
   if (range.starts_with('@')) key.allowed.choices = choices_of_table(range);

@@ -15,8 +15,9 @@ struct KeySpec {
   std::string name;
   KeyType type = KeyType::real;
   bool required = false;
-  KeyValue default_value;  // meaningless if required; NaN: computed from other parameters
-  std::string units;       // "" or "1" if there are none
+  KeyValue
+      default_value;  // required: a value of the right type; NaN: computed from other parameters
+  std::string units;  // "" or "1" if there are none
   Allowed allowed;
   std::string description;
   std::string since;       // version; "" for parameters of the kernels

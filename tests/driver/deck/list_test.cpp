@@ -1,4 +1,4 @@
-// Lists with subscripts: every case says what gfortran's namelist READ gives for real :: v(3) with
+// Lists with subscripts. The values are those that the namelist READ of gfortran 12 gives for real :: v(3) with
 // the same default; bad cases are those it refuses.
 #include <gtest/gtest.h>
 

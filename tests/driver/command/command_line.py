@@ -1,0 +1,153 @@
+"""The command line: what is printed, what is refused and with which exit code.
+
+Runs of decks are tested in tests/driver/run.
+"""
+
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM = pathlib.Path(sys.argv[1]).resolve()
+VERSION = sys.argv[2]
+
+LISTED_TABLES = ["fields", "materials", "formulations", "groups", "status", "units"]
+
+
+class CommandLine(unittest.TestCase):
+    def setUp(self):
+        self.directory = tempfile.TemporaryDirectory()
+        self.addCleanup(self.directory.cleanup)
+        self.folder = pathlib.Path(self.directory.name)
+
+    def cleave(self, *words):
+        return subprocess.run([PROGRAM, *words], cwd=self.folder, text=True, capture_output=True,
+                              timeout=60, check=False)
+
+    def printed(self, *words):
+        run = self.cleave(*words)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual(run.stderr, "")
+        return run.stdout
+
+    def refused(self, *words):
+        run = self.cleave(*words)
+        self.assertEqual(run.returncode, 2, run.stderr)
+        self.assertEqual(run.stdout, "")
+        self.assertTrue(run.stderr.startswith("cleave: "), run.stderr)
+        return run.stderr
+
+    def test_version(self):
+        self.assertEqual(self.printed("--version"), f"cleave {VERSION}\n")
+
+    def test_help_names_every_command(self):
+        text = self.printed("--help")
+        for command in ["check", "restart", "keys", "tables", "info", "parse", "--threads", "--quiet"]:
+            self.assertIn(command, text)
+
+    def test_nothing_given(self):
+        self.assertIn("no deck and no command is given", self.refused())
+
+    def test_misspelt_command(self):
+        self.assertIn('Did you mean "cleave check ..."?', self.refused("chek", "deck.nml"))
+        self.assertIn('Did you mean "cleave restart ..."?', self.refused("restrat"))
+
+    def test_misspelt_option(self):
+        self.assertIn("Did you mean --threads?", self.refused("--thread", "2", "deck.nml"))
+        self.assertIn("Did you mean --quiet?", self.refused("check", "deck.nml", "--quite"))
+
+    def test_bad_values_of_options(self):
+        self.assertIn("--threads", self.refused("--threads", "0", "deck.nml"))
+        self.assertIn("--threads", self.refused("--threads", "many", "deck.nml"))
+        self.assertIn("markdown", self.refused("keys", "--format", "html"))
+
+    def test_missing_operand(self):
+        for command, operand in [("check", "DECK"), ("restart", "CHECKPOINT"), ("info", "FILE"),
+                                 ("parse", "FILE"), ("tables", "TABLE")]:
+            self.assertIn(f"{operand} is required", self.refused(command))
+
+    def test_deck_before_a_command(self):
+        self.assertIn('"a.nml" stands before the command', self.refused("a.nml", "check", "b.nml"))
+
+    def test_missing_deck_names_the_nearest(self):
+        (self.folder / "branch.nml").write_text("")
+        (self.folder / "other.nml").write_text("")
+        for words in [("brnch.nml",), ("check", "brnch.nml"), ("branch",), ("parse", "brnch.nml")]:
+            self.assertIn('Did you mean "branch.nml"?', self.refused(*words))
+        self.assertIn("There are: branch.nml, other.nml.", self.refused("plate_with_hole.nml"))
+        self.assertIn('There is no directory "sub".', self.refused("sub/branch.nml"))
+        self.assertIn("is a directory; wanted is the deck", self.refused("check", "."))
+
+    def test_missing_deck_without_others(self):
+        self.assertIn('There is no .nml file in ".".', self.refused("brnch.nml"))
+
+    def test_missing_checkpoint(self):
+        self.assertIn('cannot find the checkpoint "run.chk"', self.refused("restart", "run.chk"))
+
+    def test_syntax_error_in_a_deck(self):
+        (self.folder / "a.nml").write_text("&run t_end = = /\n")
+        self.assertIn("a.nml:1:", self.refused("check", "a.nml"))
+
+    def test_garbage_as_a_deck(self):
+        (self.folder / "a.nml").write_bytes(bytes(range(256)) * 50)
+        self.refused("check", "a.nml")
+
+    def test_keys_lists_everything(self):
+        listing, markdown = self.printed("keys"), self.printed("keys", "--format", "markdown")
+        names = self.printed("keys", "--format", "names").split()
+        self.assertGreater(len(names), 80)
+        self.assertEqual(len(names), len(set(names)))
+        for name in names:
+            group, key = name.split(".")
+            self.assertIn(f"&{group}  (", listing)
+            self.assertIn(f"  {key} ", listing)
+            self.assertIn(f"## `&{group}`", markdown)
+            self.assertIn(f"| `{key}` |", markdown)
+
+    def test_keys_of_a_group_and_of_a_key(self):
+        self.assertTrue(self.printed("keys", "run").startswith("&run  (once)"))
+        self.assertEqual(self.printed("keys", "RUN.T_END"), self.printed("keys", "run.t_end"))
+        self.assertIn("real number [s], > 0; required", self.printed("keys", "run.t_end"))
+        self.assertIn("with law = 'svk'", self.printed("keys", "material"))
+
+    def test_unknown_keys(self):
+        self.assertIn("did you mean &body?", self.refused("keys", "bdy"))
+        self.assertIn('did you mean "t_end"?', self.refused("keys", "run.t_ned"))
+        self.assertIn("keys of this name: run.t_end", self.refused("keys", "t_end"))
+
+    def test_markdown_tables_are_regular(self):
+        texts = [self.printed("tables", table, "--format", "markdown") for table in LISTED_TABLES]
+        for text in texts + [self.printed("keys", "--format", "markdown")]:
+            columns = 0
+            for line in text.splitlines():
+                bars = line.replace("\\|", "").count("|")
+                columns = 0 if not bars else columns or bars
+                self.assertEqual(bars, columns, line)
+
+    def test_tables(self):
+        self.assertIn("CLEAVE_BAD_SIMPLEX", self.printed("tables", "status"))
+        self.assertIn("svk", self.printed("tables", "materials"))
+        self.assertIn("cbm", self.printed("tables", "formulations"))
+        self.assertIn("viscosity", self.printed("tables", "groups"))
+        self.assertIn("displacement", self.printed("tables", "fields"))
+        self.assertIn('did you mean "fields"?', self.refused("tables", "field"))
+
+    def test_parse_prints_json(self):
+        (self.folder / "any.nml").write_text("&Anything a%b(2) = 2*1.5, 'it''s' /\n")
+        tree = json.loads(self.printed("parse", "any.nml"))
+        assignment = tree["groups"][0]["assignments"][0]
+        self.assertEqual(tree["groups"][0]["name"], "anything")
+        self.assertEqual(assignment["name"], "a%b(2)")
+        self.assertEqual(assignment["values"], [1.5, 1.5, "it's"])
+
+    def test_info_refuses_other_files(self):
+        (self.folder / "notes.txt").write_text("no result\n")
+        self.assertIn("notes.txt", self.refused("info", "notes.txt"))
+        (self.folder / "empty.nc").write_text("")
+        self.assertIn("empty.nc", self.refused("info", "empty.nc"))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

@@ -1,0 +1,65 @@
+#include "support/meshes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace cleave::test {
+
+double Random::operator()() {
+  state_ = state_ * 6364136223846793005ull + 1442695040888963407ull;
+  return static_cast<double>(static_cast<std::int64_t>(state_ >> 11) - (std::int64_t{1} << 52)) *
+         0x1p-52;
+}
+
+SimplexMesh patch(int dimension, int cells, double h, double jitter, unsigned seed) {
+  Random random(seed);
+  SimplexMesh mesh;
+  mesh.dimension = dimension;
+  const int n = cells + 1, layers = dimension == 3 ? n : 1;
+  for (int z = 0; z < layers; ++z)
+    for (int y = 0; y < n; ++y)
+      for (int x = 0; x < n; ++x) {
+        const std::array<int, 3> at{x, y, z};
+        for (int k = 0; k < 3; ++k) {
+          mesh.X.push_back(k < dimension ? h * (at[static_cast<std::size_t>(k)] + jitter * random())
+                                         : 0.0);
+        }
+      }
+  const auto node = [n](int x, int y, int z) {
+    return (static_cast<std::int64_t>(z) * n + y) * n + x;
+  };
+  const auto add = [&](std::vector<std::int64_t> corners) {
+    if (random() > 0) std::swap(corners[0], corners[1]);
+    mesh.simplices.insert(mesh.simplices.end(), corners.begin(), corners.end());
+  };
+  if (dimension == 2) {
+    for (int y = 0; y < cells; ++y)
+      for (int x = 0; x < cells; ++x) {
+        add({node(x, y, 0), node(x + 1, y, 0), node(x + 1, y + 1, 0)});
+        add({node(x, y, 0), node(x + 1, y + 1, 0), node(x, y + 1, 0)});
+      }
+    return mesh;
+  }
+  // Kuhn split: one tetrahedron for every order in which the three coordinates are raised.
+  std::array<int, 3> order{0, 1, 2};
+  std::vector<std::array<int, 3>> orders;
+  do {
+    orders.push_back(order);
+  } while (std::next_permutation(order.begin(), order.end()));
+  for (int z = 0; z < cells; ++z)
+    for (int y = 0; y < cells; ++y)
+      for (int x = 0; x < cells; ++x)
+        for (const auto& o : orders) {
+          std::array<int, 3> at{x, y, z};
+          std::vector<std::int64_t> corners{node(at[0], at[1], at[2])};
+          for (const int axis : o) {
+            ++at[static_cast<std::size_t>(axis)];
+            corners.push_back(node(at[0], at[1], at[2]));
+          }
+          add(corners);
+        }
+  return mesh;
+}
+
+}  // namespace cleave::test

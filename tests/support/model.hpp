@@ -1,0 +1,182 @@
+// A model driven through the C interface, with errors turned into test failures.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cleave/cleave.h"
+#include "support/meshes.hpp"
+
+namespace cleave::test {
+
+inline std::string last_message() {
+  char text[4096];
+  cleave_last_message(text, sizeof text, nullptr);
+  return text;
+}
+
+inline void ok(int32_t status) { ASSERT_EQ(status, CLEAVE_OK) << last_message(); }
+
+struct Setting {
+  std::string group, name;
+  double value = 0;
+  std::string choice = "";
+};
+
+// What a property test loops over.
+struct Case {
+  int32_t formulation = CLEAVE_FORMULATION_cbm;
+  int32_t material = CLEAVE_MATERIAL_svk;
+  int32_t kinematics = CLEAVE_3D;
+};
+
+inline int dimension_of(const Case& c) { return c.kinematics == CLEAVE_3D ? 3 : 2; }
+
+// Properties of a law for tests: PMMA-like numbers for the names that are known, else the default.
+inline double test_property(const std::string& name, double fallback) {
+  if (name == "rho") return 1190;
+  if (name == "E") return 3.24e9;
+  if (name == "nu") return 0.35;
+  return fallback;
+}
+
+class Model {
+ public:
+  Model() { ok(cleave_model_create(CLEAVE_ABI_VERSION, &handle_)); }
+  ~Model() { cleave_model_destroy(handle_); }
+  Model(const Model&) = delete;
+  Model& operator=(const Model&) = delete;
+  operator cleave_model*() const { return handle_; }
+
+  void add(const Case& c, const SimplexMesh& mesh, const std::vector<Setting>& settings = {}) {
+    cleave_body_spec spec;
+    ok(cleave_body_spec_init(&spec));
+    spec.formulation = c.formulation;
+    spec.kinematics = c.kinematics;
+    spec.material = c.material;
+    spec.particles = mesh.particles();
+    spec.X = mesh.X.data();
+    spec.simplex_count = mesh.simplex_count();
+    spec.simplices = mesh.simplices.data();
+    spec.name = "patch";
+    int64_t body = 0;
+    ok(cleave_body_add(handle_, &spec, &body));
+    set_material(body, c.material);
+    for (const auto& s : settings) {
+      ok(s.choice.empty()
+             ? cleave_body_set_real(handle_, body, s.group.c_str(), s.name.c_str(), s.value)
+             : cleave_body_set_choice(handle_, body, s.group.c_str(), s.name.c_str(),
+                                      s.choice.c_str()));
+    }
+  }
+
+  void setup() { ok(cleave_model_setup(handle_)); }
+  void initialise() { ok(cleave_model_initialise(handle_, 0.0)); }
+  double stable_step() const {
+    double dt = 0;
+    ok(cleave_model_stable_step(handle_, &dt));
+    return dt;
+  }
+  void step(double dt) {
+    int64_t n = 0;
+    double t = 0;
+    ok(cleave_model_clock(handle_, &n, &t));
+    ok(cleave_model_advance(handle_, dt, static_cast<double>(n + 1) * dt));
+    ok(cleave_model_update(handle_));
+  }
+
+  cleave_field field(const std::string& name) const {
+    cleave_field f{};
+    f.size = sizeof f;
+    ok(cleave_field_find(handle_, 0, name.c_str(), &f));
+    return f;
+  }
+  std::vector<double> real(const std::string& name) const {
+    const cleave_field f = field(name);
+    std::vector<double> v(static_cast<std::size_t>(f.count * f.components));
+    ok(cleave_field_get_real(handle_, 0, name.c_str(), 0, f.count, v.data()));
+    return v;
+  }
+  std::vector<int64_t> integer(const std::string& name) const {
+    const cleave_field f = field(name);
+    std::vector<int64_t> v(static_cast<std::size_t>(f.count * f.components));
+    ok(cleave_field_get_integer(handle_, 0, name.c_str(), 0, f.count, v.data()));
+    return v;
+  }
+  void put(const std::string& name, const std::vector<double>& v) {
+    ok(cleave_field_put_real(handle_, 0, name.c_str(), 0, field(name).count, v.data()));
+  }
+  cleave_energies energies() const {
+    cleave_energies e{};
+    e.size = sizeof e;
+    ok(cleave_energies_get(handle_, -1, &e));
+    return e;
+  }
+  cleave_counts counts() const {
+    cleave_counts c{};
+    c.size = sizeof c;
+    ok(cleave_counts_get(handle_, -1, &c));
+    return c;
+  }
+
+ private:
+  void set_material(int64_t body, int32_t material) {
+    int64_t entries = 0;
+    ok(cleave_table_count(CLEAVE_TABLE_MATERIAL, &entries));
+    for (int64_t k = 0; k < entries; ++k) {
+      cleave_table_entry e{};
+      e.size = sizeof e;
+      ok(cleave_table_get(CLEAVE_TABLE_MATERIAL, k, &e));
+      if (e.value != material) continue;
+      int64_t count = 0;
+      ok(cleave_parameter_count(e.name, &count));
+      for (int64_t p = 0; p < count; ++p) {
+        cleave_parameter q{};
+        q.size = sizeof q;
+        ok(cleave_parameter_get(e.name, p, &q));
+        ok(cleave_body_set_real(handle_, body, "material", q.name,
+                                test_property(q.name, q.default_value)));
+      }
+    }
+  }
+  cleave_model* handle_ = nullptr;
+};
+
+// Every formulation x material x plane condition of the tables.
+inline std::vector<Case> all_cases() {
+  std::vector<Case> out;
+  int64_t formulations = 0, materials = 0;
+  cleave_table_count(CLEAVE_TABLE_FORMULATION, &formulations);
+  cleave_table_count(CLEAVE_TABLE_MATERIAL, &materials);
+  for (int64_t f = 0; f < formulations; ++f) {
+    for (int64_t m = 0; m < materials; ++m) {
+      cleave_table_entry fe{}, me{};
+      fe.size = me.size = sizeof fe;
+      cleave_table_get(CLEAVE_TABLE_FORMULATION, f, &fe);
+      cleave_table_get(CLEAVE_TABLE_MATERIAL, m, &me);
+      for (const int32_t k : {CLEAVE_3D, CLEAVE_PLANE_STRAIN, CLEAVE_PLANE_STRESS})
+        out.push_back({fe.value, me.value, k});
+    }
+  }
+  return out;
+}
+
+inline std::string case_name(const testing::TestParamInfo<Case>& info) {
+  static const char* kinematics[] = {"", "3d", "plane_strain", "plane_stress"};
+  cleave_table_entry fe{}, me{};
+  fe.size = me.size = sizeof fe;
+  std::string name;
+  for (int64_t k = 0; cleave_table_get(CLEAVE_TABLE_FORMULATION, k, &fe) == CLEAVE_OK; ++k) {
+    if (fe.value == info.param.formulation) name += fe.name;
+  }
+  for (int64_t k = 0; cleave_table_get(CLEAVE_TABLE_MATERIAL, k, &me) == CLEAVE_OK; ++k) {
+    if (me.value == info.param.material) name += std::string("_") + me.name;
+  }
+  return name + "_" + kinematics[info.param.kinematics];
+}
+
+}  // namespace cleave::test
