@@ -46,9 +46,12 @@ void verify_header(const std::string& path) {
       layout.variables.front().name != kHeaderChecksum) {
     fail(path, "is a netCDF file, but not an archive written by Cleave, or its header is damaged");
   }
-  if (file_size(path) != layout.file_bytes) {
-    fail(path, "is " + std::to_string(file_size(path)) + " bytes long, its header promises " +
-                   std::to_string(layout.file_bytes));
+  if (layout.found_bytes < layout.promised_bytes) {
+    throw_truncated(path, layout.found_bytes, layout.promised_bytes);
+  }
+  if (layout.found_bytes > layout.promised_bytes) {
+    fail(path, "is " + std::to_string(layout.found_bytes) + " bytes long, its header promises " +
+                   std::to_string(layout.promised_bytes));
   }
   const std::uint64_t stored = stored_header_checksum(path, layout.variables.front().begin);
   const std::uint64_t found = checksum_of_beginning(path, layout.header_bytes);

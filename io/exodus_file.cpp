@@ -31,14 +31,6 @@ ExodusFile ExodusFile::create(const std::string& path) {
   return {path, id};
 }
 
-ExodusFile ExodusFile::open_for_writing(const std::string& path) {
-  int computed = 8, stored = 0;
-  float version = 0;
-  const int id = ex_open(path.c_str(), EX_WRITE | EX_ALL_INT64_API, &computed, &stored, &version);
-  if (id < 0) fail(path, "open the file for writing", exerrval);
-  return {path, id};
-}
-
 ExodusFile::ExodusFile(ExodusFile&& other) noexcept
     : path_(std::move(other.path_)), id_(std::exchange(other.id_, -1)) {}
 

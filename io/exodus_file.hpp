@@ -1,7 +1,8 @@
-// An open Exodus II file for writing that closes itself, and whose errors say what failed.
+// A new Exodus II file that closes itself, and whose errors say what failed.
 //
 // A thin layer: callers use the Exodus functions with id() and pass every status to check().
-// Exodus ids are netCDF ids, so netCDF functions can add what Exodus has no call for.
+// Exodus ids are netCDF ids, so netCDF functions can add what Exodus has no call for. Not for appending
+// frames: Exodus opens files "shared", which writes the number of frames before the frame (results.cpp).
 #pragma once
 
 #include <exodusII.h>
@@ -15,7 +16,6 @@ class ExodusFile {
  public:
   // Doubles, 64-bit offsets, 64-bit integers in calls. An old file of that name is lost.
   static ExodusFile create(const std::string& path);
-  static ExodusFile open_for_writing(const std::string& path);
 
   ExodusFile(ExodusFile&& other) noexcept;
   ExodusFile& operator=(ExodusFile&&) = delete;

@@ -14,10 +14,11 @@ enum class ShapeKind { block, cylinder, sphere };  // in two dimensions: rectang
 struct LatticeSpec {
   LatticeKind lattice = LatticeKind::cubic;
   ShapeKind shape = ShapeKind::block;
-  double spacing = 0;                     // nearest-neighbour distance [m]
-  std::array<double, 3> origin{0, 0, 0};  // block: lowest corner; cylinder: centre of the base; sphere: centre
-  std::array<double, 3> size{0, 0, 0};    // block: edge lengths (fitted: see below)
-  double radius = 0, height = 0;          // cylinder (axis `axis`), sphere, disc
+  double spacing = 0;  // nearest-neighbour distance [m]
+  std::array<double, 3> origin{
+      0, 0, 0};  // block: lowest corner; cylinder: centre of the base; sphere: centre
+  std::array<double, 3> size{0, 0, 0};  // block: edge lengths (fitted: see below)
+  double radius = 0, height = 0;        // cylinder (axis `axis`), sphere, disc
   int axis = 2;
 };
 

@@ -252,21 +252,44 @@ void Parser::read_values(std::vector<Value>& values) {
     const char c = at_.peek();
     if (c == '!' && is_text_after_comment()) {
       at_.skip_white();
-      continue;
-    }
-    if (c == ',' || c == ';' || c == '!') {
-      Value null;
-      null.place = at_.place();
-      null.hidden = c == '!' || between == Between::line_end;
-      values.push_back(std::move(null));
+    } else if (c == ',' || c == ';' || c == '!') {
+      push_empty(values, c == '!' || between == Between::line_end);
+      between = read_separator();
     } else if (at_.at_end() || c == '/' || c == '&' || c == '$' || is_name_next(at_)) {
       break;
     } else {
       read_item(values);
+      between = read_separator_after_word(values);
     }
-    between = read_separator();
   }
   while (!values.empty() && values.back().hidden) values.pop_back();
+}
+
+void Parser::push_empty(std::vector<Value>& values, bool hidden) const {
+  Value null;
+  null.place = at_.place();
+  null.hidden = hidden;
+  values.push_back(std::move(null));
+}
+
+// Two kinds of words change gfortran's rules: inf and nan take the line ends that follow with them; after
+// a logical of two letters or more without a point, a comment leaves what follows to be the next value,
+// be it only a blank.
+Parser::Between Parser::read_separator_after_word(std::vector<Value>& values) {
+  const Value& last = values.back();
+  const bool real = std::holds_alternative<double>(last.scalar);
+  if (real && !is_digit(last.text.back()) && last.text.back() != '.') {
+    at_.advance_to(at_.after_white(at_.offset()));
+  }
+  const Between between = read_separator();
+  const bool logical = std::holds_alternative<bool>(last.scalar);
+  if (between != Between::comment || !logical || last.text.size() == 1 || last.text[0] == '.') {
+    return between;
+  }
+  const char c = at_.peek();
+  if (!is_blank(c) && c != ',' && c != ';' && c != '!') return Between::nothing;
+  push_empty(values, true);
+  return read_separator();
 }
 
 Parser::Between Parser::read_separator() {

@@ -29,7 +29,9 @@ class Parser {
   bool read_subscript_number(std::int64_t& number);
 
   void read_values(std::vector<Value>& values);
+  void push_empty(std::vector<Value>& values, bool hidden) const;
   Between read_separator();
+  Between read_separator_after_word(std::vector<Value>& values);
   Between absorb_lines(Between between, std::vector<Value>& values);
   bool is_text_after_comment() const;
   void read_item(std::vector<Value>& values);

@@ -37,6 +37,7 @@ class NetcdfFile {
   void put_text(int variable, const std::string& name, const std::string& text) const;
   // Throws if the attribute is missing or not text.
   std::string text(int variable, const std::string& name) const;
+  int variable(const std::string& name) const;  // throws if there is none
   // The name of variable `variable`, for messages and comparisons.
   std::string variable_name(int variable) const;
 

@@ -44,7 +44,7 @@ class HeaderReader {
     NetcdfLayout layout;
     layout.version = read_magic();
     version_ = layout.version;
-    layout.records = read_count();
+    layout.promised_records = read_count();
     read_dimensions();
     skip_attributes();
     read_variables(layout);
@@ -65,7 +65,7 @@ class HeaderReader {
 
   void skip(std::int64_t bytes) {
     need(bytes);
-    stream_.seekg(bytes, std::ios::cur);
+    stream_.ignore(bytes);
     position_ += bytes;
   }
 
@@ -184,20 +184,23 @@ class HeaderReader {
         end = std::max(end, saturating_sum(variable.begin, pad_to_four(variable.bytes)));
       }
     }
-    // A single record variable is stored without padding.
-    if (record_variables == 1) {
-      for (const auto& variable : layout.variables) {
-        if (variable.is_record) layout.record_bytes = variable.bytes;
-      }
+    if (record_variables == 1) {  // a lone record variable is stored without padding
+      const auto lone = std::find_if(layout.variables.begin(), layout.variables.end(),
+                                     [](const auto& variable) { return variable.is_record; });
+      layout.record_bytes = lone->bytes;
     }
-    if (record_variables > 0 && layout.records > 0) {
-      end = saturating_sum(layout.record_begin, saturating_product(layout.records, layout.record_bytes));
-    }
-    layout.file_bytes = end;
-    if (file_bytes_ < end) {
-      throw Error(path_ + ": is truncated: " + std::to_string(file_bytes_) + " bytes, its header promises " +
-                  std::to_string(end) + "; it was not written to the end, use another");
-    }
+    if (file_bytes_ < end) throw_truncated(path_, file_bytes_, end);
+    count_records(layout, end);
+  }
+
+  void count_records(NetcdfLayout& layout, std::int64_t end) const {
+    layout.found_bytes = file_bytes_;
+    layout.promised_bytes = end;
+    if (layout.record_bytes == 0 || layout.promised_records == 0) return;
+    layout.promised_bytes = saturating_sum(
+        layout.record_begin, saturating_product(layout.promised_records, layout.record_bytes));
+    const std::int64_t stored = std::max<std::int64_t>(0, file_bytes_ - layout.record_begin);
+    layout.found_records = std::min(layout.promised_records, stored / layout.record_bytes);
   }
 
   std::string path_;
@@ -229,8 +232,9 @@ NetcdfLayout read_netcdf_layout(const std::string& path) { return HeaderReader(p
 
 void truncate_records(const std::string& path, std::int64_t records) {
   const NetcdfLayout layout = read_netcdf_layout(path);
-  if (layout.records < records) {
-    throw Error(path + ": has " + std::to_string(layout.records) + " records, " + std::to_string(records) +
+  if (layout.found_records < records) {
+    throw Error(path + ": has " + std::to_string(layout.found_records) + " records, " +
+                std::to_string(records) +
                 " are needed to continue; it is not the file of that run, or it was changed since");
   }
   // First the count, then the tail: between the two the file is valid, only longer than needed.
@@ -239,6 +243,11 @@ void truncate_records(const std::string& path, std::int64_t records) {
     set_file_size(path, layout.record_begin + records * layout.record_bytes);
   }
   sync_file(path);
+}
+
+void throw_truncated(const std::string& path, std::int64_t found_bytes, std::int64_t promised_bytes) {
+  throw Error(path + ": is truncated: " + std::to_string(found_bytes) + " bytes, its header promises " +
+              std::to_string(promised_bytes) + "; it was not written to the end, use another");
 }
 
 }  // namespace cleave::io

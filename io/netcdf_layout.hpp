@@ -19,20 +19,25 @@ struct NetcdfLayout {
     std::int64_t bytes = 0;  // of the whole variable, or of one record
   };
   int version = 0;                // 1, 2 or 5
-  std::int64_t records = 0;
   std::int64_t header_bytes = 0;
   std::int64_t record_begin = 0;  // offset of record 0; 0 without record variables
   std::int64_t record_bytes = 0;  // one record of all record variables
-  std::int64_t file_bytes = 0;    // the length that the header promises
+  std::int64_t promised_records = 0, promised_bytes = 0;  // by the header
+  std::int64_t found_records = 0, found_bytes = 0;        // whole records, length of the file
   std::vector<Variable> variables;
 };
 
-// Throws io::Error if the file cannot be read, is not netCDF classic, contradicts itself, or is shorter
-// than its header says.
+// Throws io::Error if the file cannot be read, is not netCDF classic, contradicts itself, or ends
+// before its first record. A kill while records are written can leave a file that promises more
+// records than it has.
 NetcdfLayout read_netcdf_layout(const std::string& path);
 
-// Keeps the first `records` records. Interrupted at any point, it leaves a readable file on which it can
-// be repeated. Throws io::Error if the file has fewer.
+// Keeps the first `records` records, and waits for the disk. Interrupted at any point, it can be
+// repeated. Throws io::Error if the file has fewer.
 void truncate_records(const std::string& path, std::int64_t records);
+
+// "path: is truncated: ..." for a file that is shorter than `promised_bytes`.
+[[noreturn]] void throw_truncated(const std::string& path, std::int64_t found_bytes,
+                                  std::int64_t promised_bytes);
 
 }  // namespace cleave::io

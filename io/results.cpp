@@ -2,10 +2,11 @@
 #include "io/results.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "io/error.hpp"
 #include "io/exodus_definition.hpp"
-#include "io/exodus_file.hpp"
+#include "io/netcdf_file.hpp"
 #include "io/netcdf_layout.hpp"
 #include "io/new_file.hpp"
 
@@ -90,27 +91,27 @@ void ResultsWriter::Impl::check_values(const std::string& what, const std::vecto
   }
 }
 
+// The names are those of the Exodus II format. The library's own calls would count the frame before it is
+// written, and a kill would leave a frame without values.
 void ResultsWriter::Impl::append(double time, std::span<const std::vector<double>> nodal_values,
                                  std::span<const std::vector<double>> element_values,
                                  std::span<const double> global_values) const {
-  ExodusFile file = ExodusFile::open_for_writing(path);
-  const int step = static_cast<int>(frames) + 1;
-  file.check(ex_put_time(file.id(), step, &time), "write the time");
-  if (!global.empty()) {
-    file.check(ex_put_var(file.id(), step, EX_GLOBAL, 1, 0, std::ssize(global), global_values.data()),
-               "write the global variables");
-  }
+  NetcdfFile file = NetcdfFile::open(path, NetcdfFile::Access::write);
+  const auto put = [&](const std::string& stored_as, std::int64_t count, const double* values) {
+    const std::array<std::size_t, 2> start{static_cast<std::size_t>(frames), 0};
+    const std::array<std::size_t, 2> extent{1, static_cast<std::size_t>(count)};
+    file.check(nc_put_vara_double(file.id(), file.variable(stored_as), start.data(), extent.data(), values),
+               "write '" + stored_as + "' of frame " + std::to_string(frames + 1));
+  };
+  put("time_whole", 1, &time);
+  if (!global.empty()) put("vals_glo_var", std::ssize(global), global_values.data());
   for (std::size_t v = 0; v < nodal.size(); ++v) {
-    file.check(ex_put_var(file.id(), step, EX_NODAL, static_cast<int>(v) + 1, 1, points,
-                          nodal_values[v].data()),
-               "write the nodal variable '" + nodal[v] + "'");
+    put("vals_nod_var" + std::to_string(v + 1), points, nodal_values[v].data());
   }
   for (std::size_t v = 0; v < element.size(); ++v) {
     const double* values = element_values[v].data();
     for (std::size_t b = 0; b < block_elements.size(); ++b) {
-      file.check(ex_put_var(file.id(), step, EX_ELEM_BLOCK, static_cast<int>(v) + 1,
-                            static_cast<ex_entity_id>(b) + 1, block_elements[b], values),
-                 "write the element variable '" + element[v] + "'");
+      put("vals_elem_var" + std::to_string(v + 1) + "eb" + std::to_string(b + 1), block_elements[b], values);
       values += block_elements[b];
     }
   }

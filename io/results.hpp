@@ -70,7 +70,7 @@ class ResultsWriter {
   std::unique_ptr<Impl> impl_;
 };
 
-// What `cleave info` prints: sizes, frames with their times, variables.
+// What `cleave info` prints: sizes, complete frames with their times, variables.
 struct ResultSummary {
   std::string title;
   int dimension = 0;

@@ -63,18 +63,22 @@ std::vector<std::string> read_names(const NetcdfFile& file, const std::string& p
   return names;
 }
 
-std::vector<double> read_times(const NetcdfFile& file, const std::string& path) {
-  const std::int64_t frames = length_of(file, "time_step");
-  const int variable = find_variable(file, path, "time_whole", NC_DOUBLE, std::array{frames});
-  std::vector<double> times(static_cast<std::size_t>(frames));
-  if (frames > 0) file.check(nc_get_var_double(file.id(), variable, times.data()), "read the times");
+std::vector<double> read_times(const NetcdfFile& file, const std::string& path, std::int64_t complete) {
+  const int variable =
+      find_variable(file, path, "time_whole", NC_DOUBLE, std::array{length_of(file, "time_step")});
+  const auto count = static_cast<std::size_t>(complete);
+  std::vector<double> times(count);
+  const std::size_t start = 0;
+  if (count > 0) {
+    file.check(nc_get_vara_double(file.id(), variable, &start, &count, times.data()), "read the times");
+  }
   return times;
 }
 
 }  // namespace
 
 ResultSummary summarise_results(const std::string& path) {
-  read_netcdf_layout(path);
+  const NetcdfLayout layout = read_netcdf_layout(path);
   const NetcdfFile file = NetcdfFile::open(path, NetcdfFile::Access::read);
   ResultSummary summary;
   summary.points = length_of(file, "num_nodes");
@@ -84,7 +88,7 @@ ResultSummary summarise_results(const std::string& path) {
   }
   summary.title = file.text(NC_GLOBAL, "title").c_str();  // stored with its end mark
   summary.elements = length_of(file, "num_elem");
-  summary.times = read_times(file, path);
+  summary.times = read_times(file, path, layout.found_records);
   summary.nodal = read_names(file, path, "num_nod_var", "name_nod_var");
   summary.element = read_names(file, path, "num_elem_var", "name_elem_var");
   summary.global = read_names(file, path, "num_glo_var", "name_glo_var");

@@ -98,7 +98,7 @@ void add_file_commands(CLI::App& app, Words& words, Action& chosen) {
   CLI::App& info = add_command(
       app, chosen, "info", "describe a checkpoint or result file",
       [&words] { return print(file_description(existing_file(words.file, "the file"))); });
-  info.add_option("FILE", words.file, "checkpoint, results or history")->required();
+  info.add_option("FILE", words.file, "checkpoint or results")->required();
 
   CLI::App& parse = add_command(app, chosen, "parse", "print any namelist file as JSON", [&words] {
     const std::string path = existing_file(words.file, "the file");

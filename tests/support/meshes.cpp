@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 namespace cleave::test {
@@ -59,6 +60,29 @@ SimplexMesh patch(int dimension, int cells, double h, double jitter, unsigned se
           }
           add(corners);
         }
+  return mesh;
+}
+
+SimplexMesh triangular_lattice(int columns, int rows, double h, double jitter, unsigned seed) {
+  Random random(seed);
+  SimplexMesh mesh;
+  for (int r = 0; r < rows; ++r)
+    for (int c = 0; c < columns; ++c) {
+      mesh.X.push_back(h * (c + 0.5 * (r % 2) + jitter * random()));
+      mesh.X.push_back(h * (0.5 * std::sqrt(3.0) * r + jitter * random()));
+      mesh.X.push_back(0);
+    }
+  const auto node = [columns](int c, int r) { return static_cast<std::int64_t>(r) * columns + c; };
+  for (int r = 0; r + 1 < rows; ++r)
+    for (int c = 0; c + 1 < columns; ++c) {
+      const std::int64_t a = node(c, r), b = node(c + 1, r), d = node(c, r + 1),
+                         e = node(c + 1, r + 1);
+      if (r % 2 == 0) {
+        mesh.simplices.insert(mesh.simplices.end(), {a, b, d, b, e, d});
+      } else {
+        mesh.simplices.insert(mesh.simplices.end(), {a, b, e, a, e, d});
+      }
+    }
   return mesh;
 }
 

@@ -85,7 +85,7 @@ def draw_plate(axes, result, step, field, deform):
     margin = 0.02 * (high - low).max()
     axes.set_xlim(low[0] - margin, high[0] + margin)
     axes.set_ylim(low[1] - margin, high[1] + margin)
-    ticks = MaxNLocator(6, steps=[1, 2, 5, 10]).tick_values(0, (high - low).max())
+    ticks = MaxNLocator(7, steps=[1, 2, 5, 10]).tick_values(0, (high - low).max())
     axes.xaxis.set_major_locator(MultipleLocator(ticks[1] - ticks[0]))
     axes.yaxis.set_major_locator(MultipleLocator(ticks[1] - ticks[0]))
     axes.set_xlabel(f"x ({unit})" if unit else "x")

@@ -1,5 +1,7 @@
 #include "command/info.hpp"
 
+#include <algorithm>
+#include <array>
 #include <variant>
 
 #include "command/table_text.hpp"
@@ -34,7 +36,7 @@ std::string describe_archive(const std::string& path) {
   TextTable arrays{{"array", "units", "type", "components x count", "description"}, {}};
   for (const io::ArrayInfo& array : archive.arrays)
     arrays.rows.push_back(
-        {array.name, "[" + array.units + "]", array.is_integer ? "integer" : "real",
+        {array.name, in_brackets(array.units), array.is_integer ? "integer" : "real",
          std::to_string(array.components) + " x " + std::to_string(array.size / array.components),
          array.description});
   return path + ": checkpoint\n\n" + to_text(attributes) + '\n' + to_text(arrays);
@@ -59,21 +61,29 @@ std::string describe_results(const std::string& path) {
          variables_line("of elements", s.element) + variables_line("global", s.global);
 }
 
+struct FileKind {
+  const char* name;
+  std::string (*describe)(const std::string& path);
+};
+
+constexpr std::array kKinds = {
+    FileKind{"a checkpoint", describe_archive},
+    FileKind{"results", describe_results},
+};
+
 }  // namespace
 
 std::string file_description(const std::string& path) {
-  std::string not_a_checkpoint;
-  try {
-    return describe_archive(path);
-  } catch (const io::Error& error) {
-    not_a_checkpoint = error.what();
+  std::string why;
+  for (const FileKind& kind : kKinds) {
+    try {
+      return kind.describe(path);
+    } catch (const io::Error& error) {
+      why += std::string("\n  not ") + kind.name + ": " + error.what();
+    }
   }
-  try {
-    return describe_results(path);
-  } catch (const io::Error& error) {
-    throw io::Error("cannot describe \"" + path + "\": neither a checkpoint (" + not_a_checkpoint +
-                    ") nor results (" + error.what() + ").");
-  }
+  throw io::Error("cannot describe \"" + path + "\": it is none of the files that a run writes." +
+                  why);
 }
 
 }  // namespace cleave::driver

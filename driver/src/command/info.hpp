@@ -1,4 +1,4 @@
-// `cleave info`: what a checkpoint, a result file or a history holds.
+// `cleave info`: what a checkpoint or a result file holds.
 #pragma once
 
 #include <string>

@@ -31,7 +31,7 @@ std::string allowed_column(const KeySpec& key, TextFormat format = TextFormat::t
 }
 
 std::string units_text(const KeySpec& key) {
-  return key.units.empty() ? "" : "[" + key.units + "]";
+  return key.units.empty() ? key.units : in_brackets(key.units);
 }
 
 std::string with_source(const KeySpec& key) {
@@ -43,7 +43,7 @@ std::string key_lines(const KeySpec& key, std::size_t width) {
   std::string line = "  " + key.name;
   line.append(width - key.name.size() + 2, ' ');
   line += type_text(key.type);
-  if (!key.units.empty() && key.units != "1") line += " " + units_text(key);
+  if (!key.units.empty() && key.units != "1") line.append(1, ' ').append(units_text(key));
   if (const std::string allowed = allowed_column(key); !allowed.empty()) line += ", " + allowed;
   if (const std::string value = default_text(key); !value.empty())
     line += key.required ? "; required" : "; default " + value;
@@ -132,7 +132,7 @@ std::string keys_listing(const std::string& topic, TextFormat format) {
   if (topic.empty()) {
     std::string text;
     for (const GroupSpec& group : key_table().groups())
-      text += (text.empty() ? "" : "\n") + group_listing(group, format);
+      text.append(text.empty() ? "" : "\n").append(group_listing(group, format));
     return text;
   }
   const std::size_t dot = topic.find('.');

@@ -50,6 +50,16 @@ std::string to_text(const TextTable& table, TextFormat format) {
   return format == TextFormat::markdown ? to_markdown(table) : to_text(table);
 }
 
-std::string code(const std::string& text) { return text.empty() ? text : '`' + text + '`'; }
+std::string code(const std::string& text) {
+  std::string quoted = text;
+  if (!text.empty()) quoted.insert(0, 1, '`').push_back('`');
+  return quoted;
+}
+
+std::string in_brackets(const std::string& units) {
+  std::string text = units;
+  text.insert(0, 1, '[').push_back(']');
+  return text;
+}
 
 }  // namespace cleave::driver

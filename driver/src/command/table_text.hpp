@@ -19,5 +19,7 @@ std::string to_text(const TextTable& table, TextFormat format);
 
 // `name` in Markdown; empty stays empty.
 std::string code(const std::string& text);
+// [units]
+std::string in_brackets(const std::string& units);
 
 }  // namespace cleave::driver

@@ -70,8 +70,8 @@ TextTable fields(TextFormat format) {
     std::string description = field.description;
     if (*field.rebuild != '\0') description += " (from: " + std::string(field.rebuild) + ")";
     table.rows.push_back(
-        {name_in(field.name, format), "[" + std::string(field.units) + "]",
-         relation_text(field.relation), shape_text(field), lifetime_text(field.lifetime),
+        {name_in(field.name, format), in_brackets(field.units), relation_text(field.relation),
+         shape_text(field), lifetime_text(field.lifetime),
          field.output != 0 ? "by default" : "on request", field.owner, description});
   }
   return table;

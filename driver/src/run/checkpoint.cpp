@@ -83,7 +83,7 @@ template <class T>
 const T& attribute(const io::Archive& archive, const std::string& name, const std::string& path) {
   const io::AttributeValue* value = archive.find_attribute(name);
   const T* typed = value == nullptr ? nullptr : std::get_if<T>(value);
-  if (typed == nullptr) damaged(path, "it has no attribute " + quoted(name));
+  if (typed == nullptr) damaged(path, "it has no attribute " + in_quotes(name));
   return *typed;
 }
 
@@ -92,7 +92,7 @@ const std::vector<T>& array(const io::Archive& archive, const std::string& name,
                             const std::string& path) {
   const io::NamedArray* found = archive.find_array(name);
   const auto* typed = found == nullptr ? nullptr : std::get_if<std::vector<T>>(&found->data);
-  if (typed == nullptr) damaged(path, "it has no array " + quoted(name));
+  if (typed == nullptr) damaged(path, "it has no array " + in_quotes(name));
   return *typed;
 }
 
@@ -184,7 +184,7 @@ std::string not_finite(const Scene& scene) {
     if (bad == values.end()) return;
     const auto entry = (bad - values.begin()) / field.components;
     const BodyGeometry& geometry = scene.bodies()[at(body)];
-    found = "field " + quoted(field.name) + " of body " + quoted(geometry.name);
+    found = "field " + in_quotes(field.name) + " of body " + in_quotes(geometry.name);
     if (field.relation == CLEAVE_RELATION_POINT) {
       found += " is not finite at particle " + number(geometry.point_ids[at(entry)]) +
                " (reference position " + point_text(&geometry.X[at(3 * entry)]) + ")";
@@ -243,14 +243,14 @@ std::vector<BodyGeometry> bodies_of(const io::Archive& archive, const Deck& deck
   return bodies;
 }
 
-void restore_fields(const io::Archive& archive, const CheckpointHeader& header, Scene& scene,
-                    const std::string& path) {
+void restore_fields(const io::Archive& archive, const CheckpointHeader& header, bool same_deck,
+                    Scene& scene, const std::string& path) {
   const auto put = [&](Index body, const cleave_field& field) {
     const std::string name = scene.bodies()[at(body)].name + "/" + field.name;
     const auto expected = at(field.count * field.components);
     const auto put_array = [&](const auto& values) {
       if (values.size() != expected) {
-        damaged(path, "array " + quoted(name) + " has " + std::to_string(values.size()) +
+        damaged(path, "array " + in_quotes(name) + " has " + std::to_string(values.size()) +
                           " values, this deck needs " + std::to_string(expected));
       }
       using Values = std::decay_t<decltype(values)>;
@@ -262,7 +262,7 @@ void restore_fields(const io::Archive& archive, const CheckpointHeader& header, 
       put_array(array<double>(archive, name, path));
     }
   };
-  for_fields(scene, CLEAVE_LIFETIME_SETUP, put);
+  if (same_deck) for_fields(scene, CLEAVE_LIFETIME_SETUP, put);
   for_fields(scene, CLEAVE_LIFETIME_STATE, put);
   const double time = static_cast<double>(header.step) * header.dt;
   check(cleave_model_restore(scene.model().handle(), header.step, time));

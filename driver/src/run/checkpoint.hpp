@@ -1,8 +1,8 @@
 // Checkpoints: everything that a run needs to go on as if it had never stopped.
 //
-// A checkpoint holds the deck, the geometry of the bodies with their named sets (so that no mesh file
-// is needed again), every field of lifetime setup and state under "body/field", and how far the
-// output files had been written. Loads have no memory: they are functions of time.
+// A checkpoint holds the deck, the geometry of the bodies with their named sets (so that no mesh
+// file is needed again), every field of lifetime setup and state under "body/field", and how far
+// the output files had been written. Loads have no memory: they are functions of time.
 #pragma once
 
 #include <cstdint>
@@ -50,8 +50,9 @@ CheckpointHeader header_of(const io::Archive& archive, const std::string& path);
 // The bodies of a checkpoint in the order of the deck.
 std::vector<BodyGeometry> bodies_of(const io::Archive& archive, const Deck& deck,
                                     const std::string& path);
-// Puts the fields into a model that was set up from those bodies, and sets its clock.
-void restore_fields(const io::Archive& archive, const CheckpointHeader& header, Scene& scene,
-                    const std::string& path);
+// Puts the fields into a model that was set up from those bodies, and sets its clock. same_deck:
+// the setup fields too; else they stay as the new deck made them (masses, critical strains, ...).
+void restore_fields(const io::Archive& archive, const CheckpointHeader& header, bool same_deck,
+                    Scene& scene, const std::string& path);
 
 }  // namespace cleave::driver

@@ -12,7 +12,8 @@ struct Component {
   std::string suffix;  // "", "_x", "_xy", "_1"
 };
 
-// Scalars have no suffix, vectors x, y, z; tensors ij in the order of cleave.h; others a number from
+// Scalars have no suffix, vectors x, y, z; tensors ij in the order of cleave.h; others a number
+// from
 // 1. plane: without the components of tensors that are zero in the plane (xz, zx, yz, zy).
 std::vector<Component> components_of(std::int64_t components, bool plane);
 

@@ -9,8 +9,9 @@ FileNames FileNames::of_deck(const Deck& deck) {
   names.base = run.text("name");
   if (names.base.empty()) names.base = std::filesystem::path(deck.source.path).stem().string();
   if (names.base.find('/') != std::string::npos) {
-    deck.fail(run, "name", "name is the base of file names and holds no '/'; use directory for the "
-                           "place");
+    deck.fail(run, "name",
+              "name is the base of file names and holds no '/'; use directory for the "
+              "place");
   }
   return names;
 }

@@ -123,8 +123,9 @@ void HistoryFile::add_probe(const Scene& scene, const DeckGroup& group) {
     for (const cleave_field& other : scene.model().fields(body)) {
       if (other.relation == CLEAVE_RELATION_POINT) known.push_back(other.name);
     }
-    deck.fail(group, "field",
-              quoted(group.text("field")) + " is not a field of particles; known: " + list(known));
+    deck.fail(
+        group, "field",
+        in_quotes(group.text("field")) + " is not a field of particles; known: " + list(known));
   }
   const BodyGeometry& geometry = scene.bodies()[at(body)];
   Probe probe{body, field->name, field->type == CLEAVE_INTEGER, field->components, {}, {}, {}};
@@ -136,15 +137,17 @@ void HistoryFile::add_probe(const Scene& scene, const DeckGroup& group) {
     const auto mass = scene.model().reals(body, "mass");
     double total = 0;
     for (const Index particle : probe.particles) total += mass[at(particle)];
-    for (const Index particle : probe.particles) probe.weights.push_back(mass[at(particle)] / total);
+    for (const Index particle : probe.particles)
+      probe.weights.push_back(mass[at(particle)] / total);
   }
   const UnitText units(units_);
   for (const Component& component : components_of(field->components, geometry.dimension == 2)) {
     const std::string column = name + component.suffix;
     for (const io::Column& other : columns_) {
       if (other.name == column) {
-        deck.fail(group, "name",
-                  "the history already has a column " + quoted(column) + "; choose another name");
+        deck.fail(
+            group, "name",
+            "the history already has a column " + in_quotes(column) + "; choose another name");
       }
     }
     probe.written.push_back(component.index);

@@ -12,8 +12,9 @@
 
 namespace cleave::driver {
 
-// Columns: step, time; the energies of cleave_energies; broken, inert, isolated, inverted; momentum;
-// for every prescribed motion its reaction_NAME_x.., for every force its force_NAME_x..; probes.
+// Columns: step, time; the energies of cleave_energies; broken, inert, isolated, inverted;
+// momentum; for every prescribed motion its reaction_NAME_x.., for every force its force_NAME_x..;
+// probes.
 class HistoryFile {
  public:
   // Throws DeckError: an unknown field or place of a probe, two columns of one name.

@@ -56,9 +56,9 @@ std::vector<cleave_field> chosen_fields(const Scene& scene) {
         if (in_results(other)) known.push_back(other.name);
       }
       scene.deck().fail(output, "fields",
-                        quoted(name) + (field == all.end()
-                                            ? " is not a field of this run"
-                                            : " is not a field of particles or simplices") +
+                        in_quotes(name) +
+                            (field == all.end() ? " is not a field of this run"
+                                                : " is not a field of particles or simplices") +
                             "; fields that can be written: " + list(known));
     }
     chosen.push_back(*field);
@@ -103,14 +103,11 @@ struct Global {
   const char* name;
   double cleave_energies::*value;
 };
-constexpr Global kGlobals[] = {{"kinetic", &cleave_energies::kinetic},
-                               {"elastic", &cleave_energies::elastic},
-                               {"plastic", &cleave_energies::plastic},
-                               {"fracture", &cleave_energies::fracture},
-                               {"viscous", &cleave_energies::viscous},
-                               {"external", &cleave_energies::external},
-                               {"reaction", &cleave_energies::reaction},
-                               {"balance", &cleave_energies::balance}};
+constexpr Global kGlobals[] = {
+    {"kinetic", &cleave_energies::kinetic},   {"elastic", &cleave_energies::elastic},
+    {"plastic", &cleave_energies::plastic},   {"fracture", &cleave_energies::fracture},
+    {"viscous", &cleave_energies::viscous},   {"external", &cleave_energies::external},
+    {"reaction", &cleave_energies::reaction}, {"balance", &cleave_energies::balance}};
 
 }  // namespace
 
@@ -136,9 +133,8 @@ ResultsFile::ResultsFile(const Scene& scene) {
 }
 
 void ResultsFile::add_field(const Scene& scene, const cleave_field& field) {
-  const bool plane =
-      std::all_of(scene.bodies().begin(), scene.bodies().end(),
-                  [](const BodyGeometry& body) { return body.dimension == 2; });
+  const bool plane = std::all_of(scene.bodies().begin(), scene.bodies().end(),
+                                 [](const BodyGeometry& body) { return body.dimension == 2; });
   const bool nodal = field.relation == CLEAVE_RELATION_POINT;
   const UnitText units(scene.deck().one("run").text("units"));
   Source source{field.name, field.type == CLEAVE_INTEGER, field.components, {}};

@@ -18,7 +18,7 @@ std::string governing_body(const Scene& scene) {
     const double speed = scene.model().wave_speed(static_cast<std::int64_t>(i));
     if (edge / speed < least) {
       least = edge / speed;
-      text = "body " + quoted(scene.bodies()[i].name) + ": shortest bond " + number(edge) +
+      text = "body " + in_quotes(scene.bodies()[i].name) + ": shortest bond " + number(edge) +
              ", wave speed " + number(speed);
     }
   }
@@ -30,7 +30,8 @@ std::string governing_body(const Scene& scene) {
 std::int64_t steps_to_end(double t_end, double dt) {
   const double ratio = t_end / dt;
   const double whole = std::round(ratio);
-  const bool is_whole = std::abs(ratio - whole) <= 1e-9 * whole;  // rounding of a quotient in a deck
+  const bool is_whole =
+      std::abs(ratio - whole) <= 1e-9 * whole;  // rounding of a quotient in a deck
   return static_cast<std::int64_t>(std::max(1.0, is_whole ? whole : std::ceil(ratio)));
 }
 
@@ -47,8 +48,9 @@ TimeStep choose_time_step(const Scene& scene) {
   }
   const double count = t_end / wanted;
   if (!(count < 1e15)) {
-    scene.deck().fail(run, "t_end", "this run would need " + number(count) +
-                                        " steps of " + number(wanted) + "; check t_end and units");
+    scene.deck().fail(run, "t_end",
+                      "this run would need " + number(count) + " steps of " + number(wanted) +
+                          "; check t_end and units");
   }
   step.clock.steps = steps_to_end(t_end, wanted);
   step.clock.dt = given > 0 ? given : t_end / static_cast<double>(step.clock.steps);

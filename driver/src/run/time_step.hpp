@@ -11,8 +11,8 @@ namespace cleave::driver {
 
 struct TimeStep {
   Clock clock;
-  double stable = 0;          // largest step that the kernels call stable [s]
-  std::string governed_by;    // the body with the smallest bond length over wave speed
+  double stable = 0;        // largest step that the kernels call stable [s]
+  std::string governed_by;  // the body with the smallest bond length over wave speed
   std::vector<std::string> warnings;
 };
 

@@ -46,17 +46,18 @@ const DeckGroup& material_of(const Deck& deck, const DeckGroup& body) {
   std::vector<std::string> known;
   for (const DeckGroup* material : deck.all("material")) {
     const std::string& name = material->text("name");
-    known.push_back(quoted(name));
+    known.push_back(in_quotes(name));
     if (name != body.text("material")) continue;
     if (found != nullptr) {
       deck.fail(*material, "name",
-                "two materials are called " + quoted(name) + "; give each its own name");
+                "two materials are called " + in_quotes(name) + "; give each its own name");
     }
     found = material;
   }
   if (found == nullptr) {
-    deck.fail(body, "material", "there is no &material with name " +
-                                    quoted(body.text("material")) + "; known: " + list(known));
+    deck.fail(body, "material",
+              "there is no &material with name " + in_quotes(body.text("material")) +
+                  "; known: " + list(known));
   }
   return *found;
 }
@@ -103,7 +104,7 @@ void add_bodies(const Deck& deck, const std::vector<BodyGeometry>& bodies, const
     for (const DeckGroup* group : deck.all(option.name)) {
       for (const Index body : sets.bodies(*group)) {
         if (applied[at(body)] != nullptr) {
-          deck.fail(*group, "body " + quoted(bodies[at(body)].name) + " already has a &" +
+          deck.fail(*group, "body " + in_quotes(bodies[at(body)].name) + " already has a &" +
                                 option.name + " group in line " +
                                 std::to_string(applied[at(body)]->place.line) +
                                 "; name the body in each");

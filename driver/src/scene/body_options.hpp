@@ -1,5 +1,5 @@
-// Formulation, material and options (fracture, viscosity, stabilisation) of bodies: from deck groups
-// to the parameters of the kernels. Which parameters there are, the kernels' tables say.
+// Formulation, material and options (fracture, viscosity, stabilisation) of bodies: from deck
+// groups to the parameters of the kernels. Which parameters there are, the kernels' tables say.
 #pragma once
 
 #include <vector>

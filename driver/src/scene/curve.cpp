@@ -33,7 +33,8 @@ void check_table(const Deck& deck, const DeckGroup& load) {
 // tau^2 (s^4/4 - s^5/10), and a parabola after the ramp.
 MotionValue smooth_acceleration(double value, double tau, double t) {
   MotionValue out;
-  check(cleave_ramp(CLEAVE_RAMP_VELOCITY, value, tau, t, &out.velocity, &out.acceleration, nullptr));
+  check(
+      cleave_ramp(CLEAVE_RAMP_VELOCITY, value, tau, t, &out.velocity, &out.acceleration, nullptr));
   const double s = std::min(t / tau, 1.0);
   const double after = std::max(t - tau, 0.0);
   out.displacement = value * tau * tau * (s * s * s * s) * (0.25 - 0.1 * s) +
@@ -62,12 +63,13 @@ Curve Curve::of_load(const Deck& deck, const DeckGroup& load) {
   curve.begin_ = load.real("begin");
   if ((kind == "smooth" || kind == "linear") && !(curve.ramp_ > 0)) {
     deck.fail(load, "ramp",
-              "curve = " + quoted(kind) + " needs its duration: ramp > 0. For a jump use "
-              "curve = 'constant'");
+              "curve = " + in_quotes(kind) +
+                  " needs its duration: ramp > 0. For a jump use "
+                  "curve = 'constant'");
   }
   if (kind != "table" && (load.given("times") || load.given("factors"))) {
     deck.fail(load, "curve",
-              "times and factors belong to curve = 'table', this curve is " + quoted(kind));
+              "times and factors belong to curve = 'table', this curve is " + in_quotes(kind));
   }
   if (kind == "linear") curve.table_ = {{0.0, curve.ramp_}, {0.0, 1.0}, {}, {}};
   if (kind == "constant") curve.table_ = {{0.0}, {1.0}, {}, {}};
@@ -94,8 +96,8 @@ MotionValue Curve::motion(MotionKind kind, double value, double time) const {
   MotionValue out;
   if (smooth_) {
     if (kind == MotionKind::acceleration) return smooth_acceleration(value, ramp_, t);
-    const auto ramp = kind == MotionKind::displacement ? CLEAVE_RAMP_DISPLACEMENT
-                                                       : CLEAVE_RAMP_VELOCITY;
+    const auto ramp =
+        kind == MotionKind::displacement ? CLEAVE_RAMP_DISPLACEMENT : CLEAVE_RAMP_VELOCITY;
     check(cleave_ramp(ramp, value, ramp_, t, &out.displacement, &out.velocity, &out.acceleration));
     return out;
   }
@@ -109,12 +111,15 @@ MotionValue Curve::motion(MotionKind kind, double value, double time) const {
   const double level = value * (c + slope * x);
   const double integral = value * (table_.first_integral[k] + x * (c + 0.5 * slope * x));
   switch (kind) {
-    case MotionKind::displacement: return {level, value * slope, 0.0};
-    case MotionKind::velocity: return {integral, level, value * slope};
-    case MotionKind::acceleration: break;
+    case MotionKind::displacement:
+      return {level, value * slope, 0.0};
+    case MotionKind::velocity:
+      return {integral, level, value * slope};
+    case MotionKind::acceleration:
+      break;
   }
-  const double second = table_.second_integral[k] + x * table_.first_integral[k] +
-                        x * x * (0.5 * c + slope * x / 6);
+  const double second =
+      table_.second_integral[k] + x * table_.first_integral[k] + x * x * (0.5 * c + slope * x / 6);
   return {value * second, integral, level};
 }
 

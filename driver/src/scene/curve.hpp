@@ -1,5 +1,6 @@
-// How a load grows over time: the factor on its value, and, for prescribed motions, what displacement,
-// velocity and acceleration follow from it. Curves have no memory: everything is a function of time.
+// How a load grows over time: the factor on its value, and, for prescribed motions, what
+// displacement, velocity and acceleration follow from it. Curves have no memory: everything is a
+// function of time.
 #pragma once
 
 #include <vector>
@@ -21,9 +22,9 @@ class Curve {
 
   // Factor on the value of a force; zero before `begin`. A smooth ramp is 3s^2 - 2s^3 [CBM 30].
   double factor(double time) const;
-  // Motion at `time` of a displacement, velocity or acceleration value * factor; integrals are exact
-  // and start from zero at `begin`. A smooth displacement is [CBM 26], the others are [CBM 30].
-  // At a kink the values are those just after it.
+  // Motion at `time` of a displacement, velocity or acceleration value * factor; integrals are
+  // exact and start from zero at `begin`. A smooth displacement is [CBM 26], the others are [CBM
+  // 30]. At a kink the values are those just after it.
   MotionValue motion(MotionKind kind, double value, double time) const;
   // Why the accelerations of this curve alone cannot reproduce it (a jump of displacement or
   // velocity during the run); empty if they can.

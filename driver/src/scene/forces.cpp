@@ -29,8 +29,7 @@ void area_weights(const BodyGeometry& body, const std::vector<Index>& facets,
     for (std::size_t a = 0; a < corners; ++a) x[a] = &body.X[at(3 * facets[f + a])];
     double area[3];
     area_vector(body.dimension, x, area);
-    const double size =
-        std::hypot(area[0], area[1], area[2]) / static_cast<double>(corners);
+    const double size = std::hypot(area[0], area[1], area[2]) / static_cast<double>(corners);
     for (std::size_t a = 0; a < corners; ++a) all[at(facets[f + a])] += size;
   }
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -41,7 +40,8 @@ void area_weights(const BodyGeometry& body, const std::vector<Index>& facets,
   }
 }
 
-std::vector<double> gathered(const std::vector<double>& field, const std::vector<Index>& particles) {
+std::vector<double> gathered(const std::vector<double>& field,
+                             const std::vector<Index>& particles) {
   std::vector<double> values;
   values.reserve(particles.size());
   for (const Index particle : particles) values.push_back(field[at(particle)]);
@@ -70,12 +70,12 @@ void Forces::add(const Deck& deck, const std::vector<BodyGeometry>& bodies, cons
   const std::string& kind = group.text("kind");
   const bool on_all = kind == "body_force" || kind == "gravity";
   if (group.text("set").empty() && !on_all) {
-    deck.fail(group, "set", "kind = " + quoted(kind) + " needs the set it acts on");
+    deck.fail(group, "set", "kind = " + in_quotes(kind) + " needs the set it acts on");
   }
   if (group.given("prescription")) {
     deck.fail(group, "prescription",
               "prescription belongs to displacement, velocity and acceleration, not to kind = " +
-                  quoted(kind));
+                  in_quotes(kind));
   }
   const std::vector<Selection> selections = sets.select(group);
   Load load{group.real("value"), Curve::of_load(deck, group), {}, {}, 0};
@@ -116,7 +116,7 @@ void Forces::add(const Deck& deck, const std::vector<BodyGeometry>& bodies, cons
   }
   if ((kind == "pressure" || kind == "traction") && facet_count == 0) {
     deck.fail(group, "set",
-              "the set " + quoted(group.text("set")) +
+              "the set " + in_quotes(group.text("set")) +
                   " holds no whole facet of the surface, so a " + kind +
                   " has nothing to act on; all particles of a facet must be in the set");
   }

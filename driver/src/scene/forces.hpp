@@ -1,5 +1,5 @@
-// External forces: from the &load groups of kind force, traction, pressure, body_force and gravity to
-// the field "external_force" of every body.
+// External forces: from the &load groups of kind force, traction, pressure, body_force and gravity
+// to the field "external_force" of every body.
 #pragma once
 
 #include <cstdint>
@@ -60,9 +60,9 @@ class Forces {
   std::vector<BodyGeometry const*> geometry_;
   std::vector<Load> loads_;
   std::vector<Resultant> resultants_;
-  std::vector<char> loaded_, pressed_;        // per body: by any load, by a pressure
-  std::vector<std::vector<double>> external_; // (3, n) per loaded body
-  std::vector<std::vector<double>> position_; // (3, n) per pressed body
+  std::vector<char> loaded_, pressed_;         // per body: by any load, by a pressure
+  std::vector<std::vector<double>> external_;  // (3, n) per loaded body
+  std::vector<std::vector<double>> position_;  // (3, n) per pressed body
   bool fresh_ = true;
 };
 

@@ -29,6 +29,6 @@ std::string list(const std::vector<std::string>& names, std::size_t most) {
   return text;
 }
 
-std::string quoted(std::string_view name) { return "'" + std::string(name) + "'"; }
+std::string in_quotes(std::string_view name) { return "'" + std::string(name) + "'"; }
 
 }  // namespace cleave::driver

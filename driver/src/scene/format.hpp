@@ -16,6 +16,6 @@ std::string point_text(const double* x);
 // a, b, c; "none" for an empty list; cut after `most` names with the number of the others.
 std::string list(const std::vector<std::string>& names, std::size_t most = 40);
 // 'name'
-std::string quoted(std::string_view name);
+std::string in_quotes(std::string_view name);
 
 }  // namespace cleave::driver

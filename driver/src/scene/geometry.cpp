@@ -6,10 +6,10 @@
 #include <limits>
 #include <map>
 
-#include "scene/format.hpp"
 #include "io/error.hpp"
 #include "io/lattice.hpp"
 #include "io/mesh.hpp"
+#include "scene/format.hpp"
 #include "scene/split.hpp"
 
 namespace cleave::driver {
@@ -21,8 +21,10 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 io::LatticeSpec lattice_spec(const DeckGroup& group) {
   static const std::map<std::string, io::LatticeKind> kinds{
-      {"square", io::LatticeKind::square}, {"hexagonal", io::LatticeKind::hexagonal},
-      {"cubic", io::LatticeKind::cubic},   {"bcc", io::LatticeKind::bcc},
+      {"square", io::LatticeKind::square},
+      {"hexagonal", io::LatticeKind::hexagonal},
+      {"cubic", io::LatticeKind::cubic},
+      {"bcc", io::LatticeKind::bcc},
       {"fcc", io::LatticeKind::fcc}};
   static const std::map<std::string, io::ShapeKind> shapes{{"block", io::ShapeKind::block},
                                                            {"cylinder", io::ShapeKind::cylinder},
@@ -69,7 +71,7 @@ class Meshes {
       for (const DeckGroup* group : deck.all(kind)) {
         if (!groups_.emplace(group->text("name"), group).second) {
           deck.fail(*group, "name",
-                    "two meshes are called " + quoted(group->text("name")) +
+                    "two meshes are called " + in_quotes(group->text("name")) +
                         "; give every &mesh and &lattice its own name");
         }
       }
@@ -82,9 +84,9 @@ class Meshes {
     if (group == groups_.end()) {
       std::vector<std::string> known;
       for (const auto& [key, value] : groups_) known.push_back(key);
-      deck_.fail(body, "mesh",
-                 "there is no &mesh or &lattice with name " + quoted(name) +
-                     "; known: " + list(known));
+      deck_.fail(
+          body, "mesh",
+          "there is no &mesh or &lattice with name " + in_quotes(name) + "; known: " + list(known));
     }
     const auto [entry, is_new] = meshes_.try_emplace(name);
     if (is_new) entry->second = mesh_of(deck_, *group->second);
@@ -115,7 +117,7 @@ std::vector<Index> simplex_nodes(const Deck& deck, const DeckGroup& body, const 
     if (block.count() == 0) {
       deck.fail(body, "mesh",
                 "the mesh has no " + std::string(cells) + " for a body with kinematics " +
-                    quoted(body.text("kinematics")) + "; it has " +
+                    in_quotes(body.text("kinematics")) + "; it has " +
                     number(mesh.triangles.count()) + " triangles and " +
                     number(mesh.tetrahedra.count()) + " tetrahedra");
     }
@@ -124,7 +126,7 @@ std::vector<Index> simplex_nodes(const Deck& deck, const DeckGroup& body, const 
   const io::MeshGroup* group = mesh.find_group(set);
   if (group == nullptr || group->dimension != dimension || group->cells.empty()) {
     deck.fail(body, "set",
-              quoted(set) + " is not a group of " + cells + " of the mesh; known groups of " +
+              in_quotes(set) + " is not a group of " + cells + " of the mesh; known groups of " +
                   cells + ": " + list(group_names(mesh, dimension)));
   }
   std::vector<Index> nodes;
@@ -151,14 +153,12 @@ void flatten(const Deck& deck, const DeckGroup& group, BodyGeometry& body) {
 
 void check_body_name(const Deck& deck, const DeckGroup& group) {
   const std::string& name = group.text("name");
-  const bool plain =
-      !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-               c == '_';
-      });
+  const bool plain = !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+  });
   if (!plain) {
     deck.fail(group, "name",
-              quoted(name) + " cannot name a body in files; use letters, digits and _");
+              in_quotes(name) + " cannot name a body in files; use letters, digits and _");
   }
 }
 
@@ -253,7 +253,7 @@ std::vector<BodyGeometry> take_bodies(const Deck& deck) {
     for (const BodyGeometry& other : bodies) {
       if (other.name == group->text("name")) {
         deck.fail(*group, "name",
-                  "two bodies are called " + quoted(other.name) + "; give each its own name");
+                  "two bodies are called " + in_quotes(other.name) + "; give each its own name");
       }
     }
     bodies.push_back(take_body(deck, *group, meshes.get(*group), crack_use));
@@ -261,7 +261,7 @@ std::vector<BodyGeometry> take_bodies(const Deck& deck) {
   for (std::size_t i = 0; i < precracks.size(); ++i) {
     if (precracks[i]->text("shape") == "group" && crack_use[i] == 0) {
       deck.fail(*precracks[i], "set",
-                "no line or triangle of the mesh group " + quoted(precracks[i]->text("set")) +
+                "no line or triangle of the mesh group " + in_quotes(precracks[i]->text("set")) +
                     " lies in the body it applies to");
     }
   }

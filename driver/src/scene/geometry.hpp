@@ -1,5 +1,6 @@
-// A body before it becomes a model: particles, simplices and named sets, in the numbering that files
-// and events show. This is all that a checkpoint must carry so that the mesh file is not needed again.
+// A body before it becomes a model: particles, simplices and named sets, in the numbering that
+// files and events show. This is all that a checkpoint must carry so that the mesh file is not
+// needed again.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// A kernels' model that owns itself and throws instead of returning a status. Nothing else: what the
-// driver can do with it, a host can do through cleave.h.
+// A kernels' model that owns itself and throws instead of returning a status. Nothing else: what
+// the driver can do with it, a host can do through cleave.h.
 #pragma once
 
 #include <cstdint>

@@ -13,10 +13,9 @@ using Index = std::int64_t;
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 const std::map<std::string, MotionKind>& motion_kinds() {
-  static const std::map<std::string, MotionKind> kinds{
-      {"displacement", MotionKind::displacement},
-      {"velocity", MotionKind::velocity},
-      {"acceleration", MotionKind::acceleration}};
+  static const std::map<std::string, MotionKind> kinds{{"displacement", MotionKind::displacement},
+                                                       {"velocity", MotionKind::velocity},
+                                                       {"acceleration", MotionKind::acceleration}};
   return kinds;
 }
 
@@ -39,24 +38,23 @@ std::vector<int> load_directions(const Deck& deck, const DeckGroup& load,
   const std::string& letters = load.text("directions");
   if (letters.empty()) {
     deck.fail(load, "directions",
-              "kind = " + quoted(load.text("kind")) +
+              "kind = " + in_quotes(load.text("kind")) +
                   " needs directions: one or more of the letters x, y, z");
   }
   std::vector<int> directions;
   for (const char letter : letters) {
     const int direction = (letter | 0x20) - 'x';  // upper case is the same
     if (direction < 0 || direction > 2) {
-      deck.fail(load, "directions",
-                quoted(letters) + " is not made of the letters x, y, z");
+      deck.fail(load, "directions", in_quotes(letters) + " is not made of the letters x, y, z");
     }
     if (std::find(directions.begin(), directions.end(), direction) != directions.end()) {
-      deck.fail(load, "directions", quoted(letters) + " names a direction twice");
+      deck.fail(load, "directions", in_quotes(letters) + " names a direction twice");
     }
     for (const Selection& selection : selections) {
       const BodyGeometry& body = bodies[at(selection.body)];
       if (direction >= body.dimension) {
         deck.fail(load, "directions",
-                  "body " + quoted(body.name) + " is plane: only x and y can be loaded");
+                  "body " + in_quotes(body.name) + " is plane: only x and y can be loaded");
       }
     }
     directions.push_back(direction);
@@ -84,7 +82,7 @@ void Motions::add(const Deck& deck, const std::vector<BodyGeometry>& bodies, con
                   const DeckGroup& group, const std::string& name) {
   if (group.text("set").empty()) {
     deck.fail(group, "set",
-              "kind = " + quoted(group.text("kind")) + " needs the set of particles it moves");
+              "kind = " + in_quotes(group.text("kind")) + " needs the set of particles it moves");
   }
   Load load{motion_kinds().at(group.text("kind")), group.text("prescription") == "exact",
             group.real("value"), Curve::of_load(deck, group), sets.select(group)};
@@ -92,7 +90,8 @@ void Motions::add(const Deck& deck, const std::vector<BodyGeometry>& bodies, con
   if (!load.exact && load.value != 0.0 && !jump.empty()) {
     deck.fail(group, "prescription",
               "prescription = 'paper' follows the accelerations of the curve, which cannot "
-              "reproduce this one: " + jump + ". Use 'exact' or a smooth curve");
+              "reproduce this one: " +
+                  jump + ". Use 'exact' or a smooth curve");
   }
   const auto directions = load_directions(deck, group, bodies, load.selections);
   const std::size_t index = loads_.size();
@@ -104,11 +103,11 @@ void Motions::add(const Deck& deck, const std::vector<BodyGeometry>& bodies, con
       if (std::find(directions.begin(), directions.end(), direction) == directions.end()) continue;
       if (!same_particle_and_direction(selection.particles, list.particle[k])) continue;
       deck.fail(group, "set",
-                "loads " + quoted(reactions_[list.load[k]].load) + " and " + quoted(name) +
+                "loads " + in_quotes(reactions_[list.load[k]].load) + " and " + in_quotes(name) +
                     " both prescribe direction " + "xyz"[direction] + " of particle " +
                     number(body.point_ids[at(list.particle[k])]) + " at " +
                     point_text(&body.X[at(3 * list.particle[k])]) + " of body " +
-                    quoted(body.name) + "; a degree of freedom follows one load only");
+                    in_quotes(body.name) + "; a degree of freedom follows one load only");
     }
     for (const Index particle : selection.particles) {
       for (const int direction : directions) {
@@ -174,16 +173,14 @@ void Motions::before_advance(Model& model, double t_new) {
   send(model, true, false);
 }
 
-void Motions::before_update(Model& model, double t_before, double t, double t_after,
-                            double dt) {
+void Motions::before_update(Model& model, double t_before, double t, double t_after, double dt) {
   for (std::size_t i = 0; i < loads_.size(); ++i) {
     const Load& load = loads_[i];
     const auto u = [&](double time) {
       return load.curve.motion(load.kind, load.value, time).displacement;
     };
-    acceleration_[i] = load.exact
-                           ? (u(t_after) - 2 * u(t) + u(t_before)) / (dt * dt)
-                           : load.curve.motion(load.kind, load.value, t).acceleration;
+    acceleration_[i] = load.exact ? (u(t_after) - 2 * u(t) + u(t_before)) / (dt * dt)
+                                  : load.curve.motion(load.kind, load.value, t).acceleration;
   }
   send(model, false, true);
 }

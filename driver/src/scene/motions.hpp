@@ -25,7 +25,8 @@ class Motions {
   void start(Model& model, double dt);
   // Displacements at the end of the step from t to t_new, before the model advances.
   void before_advance(Model& model, double t_new);
-  // Accelerations at time t = t_n, before the model updates; t_before, t_after: the steps beside it.
+  // Accelerations at time t = t_n, before the model updates; t_before, t_after: the steps beside
+  // it.
   void before_update(Model& model, double t_before, double t, double t_after, double dt);
 
   struct Reaction {

@@ -117,7 +117,7 @@ bool crosses(const Surveyed& s, const Vector& p, const Vector& q, double margin)
 void require_dimension(const Deck& deck, const DeckGroup& precrack, int dimension, int needed) {
   if (dimension == needed) return;
   deck.fail(precrack, "shape",
-            "shape = " + quoted(precrack.text("shape")) + " is for bodies in " +
+            "shape = " + in_quotes(precrack.text("shape")) + " is for bodies in " +
                 (needed == 2 ? "the plane; in space use plane, disc or group"
                              : "space; in the plane use segment, polyline or group"));
 }
@@ -134,8 +134,9 @@ std::vector<CrackPiece> polyline_pieces(const Deck& deck, const DeckGroup& precr
   std::vector<CrackPiece> pieces;
   for (std::size_t i = 0; i + 3 < points.size(); i += 2) {
     if (points[i] == points[i + 2] && points[i + 1] == points[i + 3]) {
-      deck.fail(precrack, "points", "points " + std::to_string(i / 2 + 1) + " and " +
-                                        std::to_string(i / 2 + 2) + " are the same");
+      deck.fail(precrack, "points",
+                "points " + std::to_string(i / 2 + 1) + " and " + std::to_string(i / 2 + 2) +
+                    " are the same");
     }
     pieces.push_back({CrackPiece::Kind::segment,
                       {{points[i], points[i + 1], 0}, {points[i + 2], points[i + 3], 0}, {}}});
@@ -148,7 +149,8 @@ std::vector<CrackPiece> plane_pieces(const Deck& deck, const DeckGroup& precrack
   if (p.size() != 9) {
     deck.fail(precrack, "points",
               "a plane has 9 numbers: a corner, the end of its first edge, the end of its second "
-              "edge; here " + std::to_string(p.size()));
+              "edge; here " +
+                  std::to_string(p.size()));
   }
   CrackPiece first{CrackPiece::Kind::triangle, {}}, second = first;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -198,7 +200,9 @@ std::vector<Joint> joints(const Index* facet, int dimension) {
 // Which facets to turn so that neighbours look to one side; the first of each patch stays.
 std::vector<char> facets_to_turn(const std::vector<Index>& facets, int dimension) {
   const std::size_t count = facets.size() / static_cast<std::size_t>(dimension);
-  const auto facet = [&](std::size_t f) { return &facets[f * static_cast<std::size_t>(dimension)]; };
+  const auto facet = [&](std::size_t f) {
+    return &facets[f * static_cast<std::size_t>(dimension)];
+  };
   std::map<std::pair<Index, Index>, std::vector<std::pair<std::size_t, int>>> sharing;
   for (std::size_t f = 0; f < count; ++f) {
     for (const Joint& joint : joints(facet(f), dimension)) {
@@ -298,7 +302,7 @@ void delete_cracks(const Deck& deck, const std::vector<BodyGeometry>& bodies, co
       std::string extents;
       for (const Index body : sets.bodies(*precrack)) {
         const Box box = bounding_box(bodies[at(body)]);
-        extents += "; body " + quoted(bodies[at(body)].name) + " extends from " +
+        extents += "; body " + in_quotes(bodies[at(body)].name) + " extends from " +
                    point_text(box.lower) + " to " + point_text(box.upper);
       }
       deck.fail(*precrack, "this crack crosses no bond" + extents);

@@ -1,9 +1,9 @@
 // Cracks that are there before the first step, given by geometry: the bonds that cross them.
 //
-// A particle on the crack would leave it open on which side it stands. The rule: a particle closer to
-// the crack than 1e-6 of the shortest bond counts as lying that far on the side of the normal (left of
-// the way from the first to the second point of a segment; along the normal of a plane or disc,
-// where the normal of a plane is first edge x second edge).
+// A particle on the crack would leave it open on which side it stands. The rule: a particle closer
+// to the crack than 1e-6 of the shortest bond counts as lying that far on the side of the normal
+// (left of the way from the first to the second point of a segment; along the normal of a plane or
+// disc, where the normal of a plane is first edge x second edge).
 #pragma once
 
 #include <cstdint>

@@ -58,7 +58,7 @@ void Scene::put_initial_velocities() {
     for (const Selection& selection : sets().select(*group)) {
       const BodyGeometry& body = bodies()[at(selection.body)];
       if (body.dimension == 2 && (v[2] != 0 || w[0] != 0 || w[1] != 0)) {
-        deck().fail(*group, "body " + quoted(body.name) +
+        deck().fail(*group, "body " + in_quotes(body.name) +
                                 " is plane: velocity has no z component and rotation is about z");
       }
       auto velocity = model().reals(selection.body, "velocity");

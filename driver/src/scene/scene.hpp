@@ -1,5 +1,5 @@
-// From a deck to a model that is ready for its first step: bodies, materials, options, sets, loads and
-// pre-cracks, each with the place in the deck where it came from.
+// From a deck to a model that is ready for its first step: bodies, materials, options, sets, loads
+// and pre-cracks, each with the place in the deck where it came from.
 #pragma once
 
 #include <memory>

@@ -26,15 +26,16 @@ class Region {
     for (const char* key : {"lower", "upper"}) {
       const auto count = zone.reals(key).size();
       if (count != 0 && count != 2 && count != 3) {
-        deck.fail(zone, key, "a corner has 2 or 3 numbers, or none for an unbounded side; here " +
-                                 std::to_string(count));
+        deck.fail(zone, key,
+                  "a corner has 2 or 3 numbers, or none for an unbounded side; here " +
+                      std::to_string(count));
       }
     }
     for (std::size_t k = 0; k < std::min(lower_.size(), upper_.size()); ++k) {
       if (lower_[k] > upper_[k]) {
-        deck.fail(zone, "upper", "upper lies below lower in direction " +
-                                     std::string(1, "xyz"[k]) + ": " + number(upper_[k]) + " < " +
-                                     number(lower_[k]));
+        deck.fail(zone, "upper",
+                  "upper lies below lower in direction " + std::string(1, "xyz"[k]) + ": " +
+                      number(upper_[k]) + " < " + number(lower_[k]));
       }
     }
     const double length = std::hypot(normal_[0], normal_[1], normal_[2]);
@@ -86,9 +87,9 @@ void Sets::add_zone(const DeckGroup& zone) {
   for (const Index body : bodies(zone)) {
     for (const NamedSet& other : sets_[at(body)]) {
       if (other.name == name) {
-        deck_.fail(zone, "name", "body " + quoted(geometry_[at(body)].name) +
-                                     " already has a set " + quoted(name) +
-                                     "; give the zone another name");
+        deck_.fail(zone, "name",
+                   "body " + in_quotes(geometry_[at(body)].name) + " already has a set " +
+                       in_quotes(name) + "; give the zone another name");
       }
     }
     const BodyGeometry& geometry = geometry_[at(body)];
@@ -104,10 +105,10 @@ void Sets::add_zone(const DeckGroup& zone) {
     std::string extents;
     for (const Index body : bodies(zone)) {
       const Box box = bounding_box(geometry_[at(body)]);
-      extents += "; body " + quoted(geometry_[at(body)].name) + " extends from " +
+      extents += "; body " + in_quotes(geometry_[at(body)].name) + " extends from " +
                  point_text(box.lower) + " to " + point_text(box.upper);
     }
-    deck_.fail(zone, "zone " + quoted(name) + " is empty: it holds no particle" + extents);
+    deck_.fail(zone, "zone " + in_quotes(name) + " is empty: it holds no particle" + extents);
   }
 }
 
@@ -123,7 +124,7 @@ std::vector<Index> Sets::bodies(const DeckGroup& group) const {
     if (geometry_[at(body)].name == name) return {body};
     known.push_back(geometry_[at(body)].name);
   }
-  deck_.fail(group, "body", "there is no body " + quoted(name) + "; known: " + list(known));
+  deck_.fail(group, "body", "there is no body " + in_quotes(name) + "; known: " + list(known));
 }
 
 std::vector<Selection> Sets::select(const DeckGroup& group) const {
@@ -139,15 +140,15 @@ std::vector<Selection> Sets::select(const DeckGroup& group) const {
     }
     for (const NamedSet& set : sets_[at(body)]) {
       if (set.name == name) selections.push_back({body, set.particles});
-      const std::string entry = quoted(set.name);
+      const std::string entry = in_quotes(set.name);
       if (std::find(known.begin(), known.end(), entry) == known.end()) known.push_back(entry);
     }
   }
   if (selections.empty()) {
-    deck_.fail(group, "set",
-               "no particle is in a set " + quoted(name) +
-                   "; known sets (mesh groups with particles of the body, and zones): " +
-                   list(known));
+    deck_.fail(
+        group, "set",
+        "no particle is in a set " + in_quotes(name) +
+            "; known sets (mesh groups with particles of the body, and zones): " + list(known));
   }
   return selections;
 }

@@ -122,7 +122,7 @@ std::vector<Index> crack_facets(const Deck& deck, const DeckGroup& precrack, con
       if (other.dimension == body.dimension - 1) known.push_back(other.name);
     }
     deck.fail(precrack, "set",
-              quoted(name) + " is not a mesh group of " +
+              in_quotes(name) + " is not a mesh group of " +
                   (body.dimension == 2 ? "lines" : "triangles") + "; known: " + list(known));
   }
   return facets_in(mesh, *group, number_of, body.dimension);
@@ -178,8 +178,8 @@ void take_mesh_cracks(const Deck& deck, const io::Mesh& mesh, const std::vector<
       body.crack_facets.push_back(facets);
     } else if (!facets.empty() && split_along(facets, body) == 0) {
       deck.fail(precrack, "set",
-                "the mesh group " + quoted(precrack.text("set")) + " separates nothing in body " +
-                    quoted(body.name) +
+                "the mesh group " + in_quotes(precrack.text("set")) +
+                    " separates nothing in body " + in_quotes(body.name) +
                     ": it lies on the surface, or has no particle that is not a crack tip");
     }
   }

@@ -1,12 +1,12 @@
-// Pre-cracks along meshed lines or surfaces: finding their facets in a body, and sharp cracks, whose
-// particles are doubled. Cracks given by geometry are in precrack.hpp.
+// Pre-cracks along meshed lines or surfaces: finding their facets in a body, and sharp cracks,
+// whose particles are doubled. Cracks given by geometry are in precrack.hpp.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "scene/geometry.hpp"
 #include "io/mesh.hpp"
+#include "scene/geometry.hpp"
 
 namespace cleave::driver {
 

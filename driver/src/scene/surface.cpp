@@ -13,7 +13,7 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 struct Candidate {
   std::array<Index, 3> key;  // sorted particles; -1 first in two dimensions
-  Index opposite;  // particle of the simplex that is not in the facet
+  Index opposite;            // particle of the simplex that is not in the facet
 };
 
 // Facets of simplices whose particles are all in the set.

@@ -8,9 +8,9 @@
 
 namespace cleave::driver {
 
-// (dimension, n) particles of the facets that belong to one simplex only and whose particles are all
-// in `particles` (sorted). Ordered so that the normal points outwards: in the plane the body lies
-// left of the way from the first to the second particle; in space the particles run
+// (dimension, n) particles of the facets that belong to one simplex only and whose particles are
+// all in `particles` (sorted). Ordered so that the normal points outwards: in the plane the body
+// lies left of the way from the first to the second particle; in space the particles run
 // counter-clockwise seen from outside. Facets are sorted by their particles, so that neither their
 // order nor their corners depend on how the simplices were written.
 std::vector<std::int64_t> surface_facets(const BodyGeometry& body,

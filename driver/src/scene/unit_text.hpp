@@ -1,5 +1,5 @@
-// Units of fields as the fields table gives them, in SI, rewritten in the units of the deck: "Pa" is
-// "MPa" in a deck with units = 'mm-ms-g-MPa'. Labels only: no number is ever converted.
+// Units of fields as the fields table gives them, in SI, rewritten in the units of the deck: "Pa"
+// is "MPa" in a deck with units = 'mm-ms-g-MPa'. Labels only: no number is ever converted.
 #pragma once
 
 #include <string>

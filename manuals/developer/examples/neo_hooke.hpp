@@ -20,7 +20,8 @@ class NeoHooke {
   static constexpr std::array kParameters = {
       required_parameter("rho", "kg m-3", kPositive, "mass density in the reference configuration"),
       required_parameter("E", "Pa", kPositive, "Young's modulus at small strain"),
-      required_parameter("nu", "1", Range{-1.0, 0.5, true, true}, "Poisson's ratio at small strain"),
+      required_parameter("nu", "1", Range{-1.0, 0.5, true, true},
+                         "Poisson's ratio at small strain"),
   };
   static constexpr std::array<FieldSpec, 0> kHistory{};  // elastic: nothing to remember
 
@@ -47,7 +48,8 @@ class NeoHooke {
     const Mat<D> cof = cofactor(f);  // J F^-T
     const double log_j = std::log(j);
     for (int a = 0; a < D; ++a)
-      for (int b = 0; b < D; ++b) r.stress(a, b) = mu_ * f(a, b) + (lambda_ * log_j - mu_) / j * cof(a, b);
+      for (int b = 0; b < D; ++b)
+        r.stress(a, b) = mu_ * f(a, b) + (lambda_ * log_j - mu_) / j * cof(a, b);
     r.stress_33 = D == 2 ? lambda_ * log_j : 0.0;
     r.energy = 0.5 * mu_ * (contract(f, f) - D - 2 * log_j) + 0.5 * lambda_ * log_j * log_j;
     return r;

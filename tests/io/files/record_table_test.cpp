@@ -123,7 +123,7 @@ TEST_F(Table, RecordsAreVisibleAfterFlushAndNotBefore) {
   append(table, 0, 5);
   EXPECT_EQ(read_column(path_, 0).size(), 0u);
   table.flush();
-  EXPECT_EQ(found(), expected(5));
+  EXPECT_TRUE(found() == expected(5));
 }
 
 TEST_F(Table, ContinuesAsIfItHadNeverBeenLonger) {
@@ -135,10 +135,10 @@ TEST_F(Table, ContinuesAsIfItHadNeverBeenLonger) {
     {
       RecordTable table = reopen(kept);
       EXPECT_EQ(table.records(), kept);
-      EXPECT_EQ(found(), expected(kept)) << kept;
+      EXPECT_TRUE(found() == expected(kept)) << kept;
       append(table, kept, 9100);
     }
-    EXPECT_EQ(found(), expected(9100)) << kept;
+    EXPECT_TRUE(found() == expected(9100)) << kept;
   }
 }
 
@@ -150,11 +150,11 @@ TEST_F(Table, ReopeningRepairsTheCsv) {
   for (const std::string& damaged : {std::string("step"), std::string(), std::string(5000, '\n')}) {
     put_bytes(csv_, damaged);
     { const RecordTable table = reopen(20); }
-    EXPECT_EQ(found(), expected(20));
+    EXPECT_TRUE(found() == expected(20));
   }
   std::filesystem::remove(csv_);
   { const RecordTable table = reopen(20); }
-  EXPECT_EQ(found(), expected(20));
+  EXPECT_TRUE(found() == expected(20));
 }
 
 TEST_F(Table, ReopeningAnotherTableIsAnError) {
@@ -178,9 +178,11 @@ TEST_F(Table, ReopeningAnotherTableIsAnError) {
   columns = kColumns;
   columns[0].is_integer = false;
   EXPECT_TRUE(contains(message(columns, 4), "column 1 is"));
-  EXPECT_EQ(found(), before);
+  EXPECT_TRUE(found() == before);
   put_bytes(path_, bytes_of(path_).substr(0, bytes_of(path_).size() - 1));
-  EXPECT_TRUE(contains(message(kColumns, 4), "is truncated"));
+  EXPECT_TRUE(contains(message(kColumns, 4), "has 3 records, 4 are needed"));
+  put_bytes(path_, bytes_of(path_).substr(0, 100));
+  EXPECT_TRUE(contains(message(kColumns, 0), "the header ends early"));
   std::filesystem::remove(path_);
   EXPECT_TRUE(contains(message(kColumns, 4), "No such file or directory"));
 }
@@ -219,10 +221,10 @@ TEST_F(Table, AFullDiskLosesNothing) {
       const std::string message = error_of<Error>([&] { table.flush(); });
       ASSERT_NE(message.find("File too large"), std::string::npos) << message;
     }
-    ASSERT_EQ(found(), expected(5)) << limit;
+    ASSERT_TRUE(found() == expected(5)) << limit;
     EXPECT_EQ(table.records(), 500);
     table.flush();
-    ASSERT_EQ(found(), std::make_pair(netcdf, csv)) << limit;
+    ASSERT_TRUE(found() == std::make_pair(netcdf, csv)) << limit;
   }
 }
 
@@ -241,10 +243,10 @@ TEST_F(Table, AKillLosesNoFlushedRecord) {
     const std::int64_t sure = kStep * steps_before_kill(work, 1 + round * 4, random() % 2000);
     {
       RecordTable table = reopen(sure);
-      ASSERT_EQ(found(), expected(sure)) << round;
+      ASSERT_TRUE(found() == expected(sure)) << round;
       append(table, sure, kStep * kSteps);
     }
-    ASSERT_EQ(found(), expected(kStep * kSteps)) << round;
+    ASSERT_TRUE(found() == expected(kStep * kSteps)) << round;
   }
 }
 

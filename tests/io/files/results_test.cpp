@@ -107,7 +107,7 @@ TEST_F(Results, LongNamesAndTitles) {
                        "has a name of 256 characters; allowed are 1 to 255"));
   // A file with short names after one with long ones: nothing of the first is left in the library.
   { const ResultsWriter results = ResultsWriter::create(path_, plate()); }
-  EXPECT_EQ(bytes_of(path_), expected(0));
+  EXPECT_TRUE(bytes_of(path_) == expected(0));
 }
 
 TEST_F(Results, ContinuesAsIfItHadNeverBeenLonger) {
@@ -117,10 +117,10 @@ TEST_F(Results, ContinuesAsIfItHadNeverBeenLonger) {
       for (std::int64_t i = 0; i < 6; ++i) write_frame(results, i);
     }
     ResultsWriter results = ResultsWriter::reopen(path_, plate(), kept);
-    EXPECT_EQ(bytes_of(path_), expected(kept)) << kept;
+    EXPECT_TRUE(bytes_of(path_) == expected(kept)) << kept;
     for (std::int64_t i = kept; i < 8; ++i) write_frame(results, i);
     EXPECT_EQ(results.frames(), 8);
-    EXPECT_EQ(bytes_of(path_), expected(8)) << kept;
+    EXPECT_TRUE(bytes_of(path_) == expected(8)) << kept;
   }
 }
 
@@ -152,7 +152,7 @@ TEST_F(Results, ReopeningAnotherFileIsAnError) {
   layout = plate();
   layout.global.clear();
   EXPECT_TRUE(contains(message(layout, 1), "as global variables"));
-  EXPECT_EQ(bytes_of(path_), before);
+  EXPECT_TRUE(bytes_of(path_) == before);
 }
 
 TEST_F(Results, RefusesLayoutsThatContradictThemselves) {
@@ -201,15 +201,15 @@ TEST_F(Results, AFullDiskLosesOnlyTheFrame) {
       const std::string message = error_of<Error>([&] { write_frame(results, 2); });
       ASSERT_TRUE(contains(message, path_) && contains(message, "File too large")) << message;
     }
-    ASSERT_EQ(bytes_of(path_), two) << limit;
+    ASSERT_TRUE(bytes_of(path_) == two) << limit;
     write_frame(results, 2);
-    ASSERT_EQ(bytes_of(path_), three) << limit;
+    ASSERT_TRUE(bytes_of(path_) == three) << limit;
   }
   for (std::size_t limit = 0; limit < expected(0).size(); limit += 101) {
     const FileSizeLimit full(limit);
     const std::string message = error_of<Error>([&] { ResultsWriter::create(path_, plate()); });
     ASSERT_TRUE(contains(message, "File too large")) << limit << ": " << message;
-    ASSERT_EQ(bytes_of(path_), three);
+    ASSERT_TRUE(bytes_of(path_) == three);
   }
 }
 
@@ -225,10 +225,10 @@ TEST_F(Results, AKillLosesNoFrame) {
     };
     const std::int64_t sure = steps_before_kill(work, 1 + 3 * round, random() % 3000);
     ResultsWriter results = ResultsWriter::reopen(path_, plate(), sure);
-    ASSERT_EQ(bytes_of(path_), expected(sure));
+    ASSERT_TRUE(bytes_of(path_) == expected(sure));
     for (std::int64_t i = sure; i < 60; ++i) write_frame(results, i);
     results.sync();
-    ASSERT_EQ(bytes_of(path_), expected(60));
+    ASSERT_TRUE(bytes_of(path_) == expected(60));
   }
 }
 
@@ -262,9 +262,14 @@ TEST_F(Results, OtherFilesAreRefused) {
 
 TEST_F(Results, DamagedFilesDoNotCrash) {
   const std::string bytes = expected(2);
+  const std::size_t fixed = expected(0).size();
   for (std::size_t length = 0; length < bytes.size(); length += 11) {
     put_bytes(path_, bytes.substr(0, length));
-    EXPECT_TRUE(contains(error_of<Error>([&] { summarise_results(path_); }), path_)) << length;
+    if (length < fixed) {
+      EXPECT_TRUE(contains(error_of<Error>([&] { summarise_results(path_); }), path_)) << length;
+    } else {
+      EXPECT_EQ(summarise_results(path_).times.size(), length < expected(1).size() ? 0u : 1u);
+    }
   }
   std::mt19937 random(13);
   int refused = 0;

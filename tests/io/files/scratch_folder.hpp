@@ -42,7 +42,9 @@ inline std::string bytes_of(const std::string& path) {
 }
 
 inline void put_bytes(const std::string& path, const std::string& bytes) {
-  std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes;
+  std::error_code ignored;
+  std::filesystem::remove(path, ignored);  // ext4 waits for the disk when an old file is overwritten
+  std::ofstream(path, std::ios::binary) << bytes;
 }
 
 // The text of the io::Error that `action` throws; a failure and "" if it does not.

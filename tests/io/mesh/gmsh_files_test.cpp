@@ -39,7 +39,9 @@ TEST(GmshFiles, PlateHasTheSizeOfItsGeometry) {
   EXPECT_NEAR(group_measure(mesh, "crack"), 1.0, kRounding);
   EXPECT_NEAR(group_measure(mesh, "1:7"), 1.0, kRounding);
   ASSERT_NE(mesh.find_group("corner"), nullptr);
-  EXPECT_EQ(mesh.find_group("corner")->nodes, std::vector<std::int64_t>{0});
+  ASSERT_EQ(mesh.find_group("corner")->nodes.size(), 1U);
+  const auto corner = static_cast<std::size_t>(mesh.find_group("corner")->nodes[0]);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(mesh.points[3 * corner + k], 0.0);
   ASSERT_NE(mesh.find_group("nowhere"), nullptr);
   EXPECT_TRUE(mesh.find_group("nowhere")->nodes.empty());
   EXPECT_EQ(mesh.find_group("left"), nullptr);
@@ -73,14 +75,15 @@ class PartitionedFiles : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(PartitionedFiles, KeepTheGroups) {
   // gmsh sorts elements by partition, so that their order and corners' order differ.
-  const Mesh whole = read_mesh(gmsh_file("plate-41-text.msh")), parts = read_mesh(gmsh_file(GetParam()));
+  const Mesh whole = read_mesh(gmsh_file("plate-41-text.msh")),
+             parts = read_mesh(gmsh_file(GetParam()));
   EXPECT_EQ(parts.triangles.count(), whole.triangles.count());
   ASSERT_EQ(parts.groups.size(), whole.groups.size());
   for (std::size_t i = 0; i < whole.groups.size(); ++i) {
     EXPECT_EQ(parts.groups[i].name, whole.groups[i].name);
     EXPECT_EQ(parts.groups[i].nodes.size(), whole.groups[i].nodes.size()) << whole.groups[i].name;
-    EXPECT_NEAR(group_measure(parts, parts.groups[i].name), group_measure(whole, whole.groups[i].name),
-                3 * kRounding)
+    EXPECT_NEAR(group_measure(parts, parts.groups[i].name),
+                group_measure(whole, whole.groups[i].name), 3 * kRounding)
         << whole.groups[i].name;
   }
 }
@@ -103,7 +106,8 @@ TEST(GmshFiles, SecondOrderSaysHowToMesh) {
 }
 
 TEST(GmshFiles, ParametricNodesSayHowToSave) {
-  expect_error([] { read_mesh(gmsh_file("plate-22-parametric.msh")); }, {"Mesh.SaveParametric = 0"});
+  expect_error([] { read_mesh(gmsh_file("plate-22-parametric.msh")); },
+               {"Mesh.SaveParametric = 0"});
 }
 
 TEST(GmshFiles, QuadranglesAreCounted) {

@@ -32,7 +32,8 @@ std::string elements22(const std::vector<std::string>& lines) {
 }
 
 TEST(GmshText, SparseNumbersAndUnusedNodes) {
-  for (const Numbers& ids : {Numbers{10, 30, 20, 7}, Numbers{5, 4000000000, 70, 900000000000000000}}) {
+  for (const Numbers& ids :
+       {Numbers{10, 30, 20, 7}, Numbers{5, 4000000000, 70, 900000000000000000}}) {
     const std::string a = std::to_string(ids[0]), b = std::to_string(ids[1]),
                       c = std::to_string(ids[2]);
     const Mesh mesh =
@@ -60,9 +61,9 @@ TEST(GmshText, WindowsLineEndsAndComments) {
 }
 
 TEST(GmshText, NameOfTwoDimensions) {
-  const Mesh mesh = read_text(kFormat22 +
-                              "$PhysicalNames\n2\n1 1 \"side\"\n2 1 \"side\"\n$EndPhysicalNames\n" +
-                              nodes22({1, 2, 3}) + elements22({"1 1 2 1 1 1 2", "2 2 2 1 1 1 2 3"}));
+  const Mesh mesh =
+      read_text(kFormat22 + "$PhysicalNames\n2\n1 1 \"side\"\n2 1 \"side\"\n$EndPhysicalNames\n" +
+                nodes22({1, 2, 3}) + elements22({"1 1 2 1 1 1 2", "2 2 2 1 1 1 2 3"}));
   EXPECT_EQ(mesh.find_group("side")->dimension, 2);
   EXPECT_EQ(mesh.find_group("2:side")->dimension, 2);
   EXPECT_EQ(mesh.find_group("1:side")->dimension, 1);
@@ -70,11 +71,12 @@ TEST(GmshText, NameOfTwoDimensions) {
 }
 
 TEST(GmshText, EntitiesWithSeveralTags) {
-  const Mesh mesh = read_text(kFormat41 +
-                              "$Entities\n0 1 1 0\n4 0 0 0 1 0 0 2 -8 9 0 \n1 0 0 0 1 1 0 0 0 \n"
-                              "$EndEntities\n$Nodes\n1 3 1 3\n2 1 0 3\n1\n2\n3\n0 0 0\n1 0 0\n0 1 0\n"
-                              "$EndNodes\n$Elements\n2 2 1 2\n1 4 1 1\n1 1 2\n2 1 2 1\n2 1 2 3\n"
-                              "$EndElements\n");
+  const Mesh mesh =
+      read_text(kFormat41 +
+                "$Entities\n0 1 1 0\n4 0 0 0 1 0 0 2 -8 9 0 \n1 0 0 0 1 1 0 0 0 \n"
+                "$EndEntities\n$Nodes\n1 3 1 3\n2 1 0 3\n1\n2\n3\n0 0 0\n1 0 0\n0 1 0\n"
+                "$EndNodes\n$Elements\n2 2 1 2\n1 4 1 1\n1 1 2\n2 1 2 1\n2 1 2 3\n"
+                "$EndElements\n");
   ASSERT_EQ(mesh.groups.size(), 2U);
   EXPECT_EQ(mesh.groups[0].name, "1:8");
   EXPECT_EQ(mesh.groups[1].name, "1:9");
@@ -162,7 +164,7 @@ TEST(GmshText, ContentMistakes) {
   refuse("$Nodes\n1\n1 0 0 0\n2 1 0 0\n$EndNodes\n", {"m.msh:7:", "$EndNodes"});
   refuse("$Nodes\n999999999999\n1 0 0 0\n$EndNodes\n", {"announces 999999999999 nodes", "bytes"});
   refuse("$Nodes\n-1\n$EndNodes\n", {"announces -1 nodes"});
-  refuse("$Nodes\n3\n1 0 0 0\n2 0", {"ends inside section $Nodes"});
+  refuse("$Nodes\n3\n1 0 0 0\n2 0.00000000 0.00000", {"ends inside section $Nodes"});
   refuse(nodes + elements22({"1 2 2 1 1 1 2 9"}), {"m.msh:12:", "element 1 refers to node 9"});
   refuse(nodes + elements22({"1 34 2 1 1 1 2 3"}), {"type 34 is not known"});
   refuse(nodes + elements22({"1 2 2000 1 1 1 2 3"}), {"announces 2000 tags"});

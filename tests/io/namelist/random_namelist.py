@@ -57,7 +57,8 @@ class Writer:
         return sign + mantissa + exponent
 
     def logical(self):
-        return self.cased(self.pick("t", "f", ".t.", ".f.", ".true.", ".false.", ".t", ".f", ".true", ".false"))
+        return self.cased(self.pick("t", "f", ".t.", ".f.", ".true.", ".false.", ".t", ".f", ".true", ".false",
+                                    "true", "false", "tr", "Falsch"))
 
     def text(self):
         quote = self.pick("'", '"')
@@ -101,7 +102,8 @@ class Writer:
             if self.chance(0.12):  # empty values
                 if self.chance(0.5):
                     count = self.random.randint(1, left)
-                    result += f"{count}*"
+                    # gfortran takes a comment directly after the '*' for a text
+                    result += f"{count}*" + (" " if kind == "text" else "")
                 else:
                     result += ","
             elif left > 1 and self.chance(0.25):
@@ -183,8 +185,14 @@ class Writer:
     def group(self):
         mark = self.pick("&", "&", "&", "$")
         text = mark + self.cased("g") + self.pick("\n", " ", "  \n", "\t", ", ", " ! comment\n", "!c\n")
+        after_logical = False
         for _ in range(self.random.randrange(0, 6)):
-            text += self.assignment() + self.between_assignments()
+            assignment = self.assignment()
+            # gfortran may take a name for another logical; here it is always a name.
+            if after_logical and assignment[0] in "tTfF":
+                continue
+            after_logical = assignment[0] in "lLtTfF"
+            text += assignment + self.between_assignments()
         return text + self.pick("/", "/", "/", mark + "end", "&END", "$end") + self.pick("", " ", " text") + "\n"
 
     def other_group(self):
@@ -196,13 +204,15 @@ class Writer:
 
     def file(self):
         text = ""
-        for _ in range(self.random.randint(1, 3)):
+        count = self.random.randint(1, 3)
+        for _ in range(count):
             text += self.between_groups() + (self.other_group() if self.chance(0.25) else self.group())
         text += self.between_groups() + "\n"
         if self.chance(0.15):
             text = text.replace("\r\n", "\n").replace("\n", "\r\n")
-        return text.encode("utf-8")
+        return text.encode("utf-8"), count
 
 
 def random_file(seed):
+    """The bytes of a file and the number of groups in it."""
     return Writer(seed).file()

@@ -25,11 +25,6 @@ struct BondRate {
   double length_of(Offset half) const {
     return lengths == nullptr ? length : lengths[bond_of_half[half]];
   }
-  // beta l rho0 c0 rate [Pa]
-  template <int D>
-  double pressure(const Vec<D>& x, const Vec<D>& v, double l) const {
-    return beta_rho_c * l * dot(v, x) / (dot(x, x) + 0.01 * l * l);
-  }
 };
 
 // Force on i: + pressure (w_ip J_i + w_pi J_p) x_ip / |x_ip|^2, J clipped at 0. Central, so both
@@ -39,19 +34,19 @@ template <int D, class Index, class Offset>
 void viscous_force_frozen(const GradientOperator<Index, Offset>& g, const BondRate<Index>& rate,
                           const double* w, const double* x, const double* v, const double* ratio,
                           std::int64_t first, std::int64_t last, double* f) {
+  const auto clipped = [ratio](std::int64_t i) { return ratio[i] > 0 ? ratio[i] : 0.0; };
   for (std::int64_t i = first; i < last; ++i) {
     Vec<D> sum;
     for (Offset b = g.row_begin[i]; b < g.row_begin[i + 1]; ++b) {
       const std::int64_t p = g.neighbour[b];
-      const double weight =
-          w[b] * std::fmax(0.0, ratio[i]) + w[g.reverse[b]] * std::fmax(0.0, ratio[p]);
+      const double weight = w[b] * clipped(i) + w[g.reverse[b]] * clipped(p);
       const Vec<D> xip = difference<D>(x, i, p);
       const double square = dot(xip, xip);
-      if (!(weight > 0) || !(square > 0))
-        continue;  // no live simplex, or ends that coincide: no direction
+      if (!(weight > 0) || !(square > 0)) continue;  // no live simplex, or no direction
+      const double l = rate.length_of(b);
+      const double approach = dot(difference<D>(v, i, p), xip);
       const double scale =
-          rate.template pressure<D>(xip, difference<D>(v, i, p), rate.length_of(b)) * weight /
-          square;
+          rate.beta_rho_c * l * approach * weight / ((square + 0.01 * l * l) * square);
       for (int k = 0; k < D; ++k) sum[k] += scale * xip[k];
     }
     for (int k = 0; k < D; ++k) f[kVector * i + k] += sum[k];
@@ -75,13 +70,14 @@ void viscous_force_deformed(const GradientOperator<Index, Offset>& g, const Bond
     for (Offset b = g.row_begin[i]; b < g.row_begin[i + 1]; ++b) {
       const std::int64_t p = g.neighbour[b];
       const Vec<D> xip = difference<D>(x, i, p);
+      const double l = rate.length_of(b);
+      const double square = dot(xip, xip);
       const double pressure =
-          rate.template pressure<D>(xip, difference<D>(v, i, p), rate.length_of(b));
+          rate.beta_rho_c * l * dot(difference<D>(v, i, p), xip) / (square + 0.01 * l * l);
       const Vec<D> own = area(i, b), other = area(p, g.reverse[b]);
       Vec<D> direction;
       for (int k = 0; k < D; ++k) direction[k] = own[k] - other[k];
       if constexpr (Central) {
-        const double square = dot(xip, xip);
         const double projected = square > 0 ? std::fmax(0.0, dot(direction, xip)) / square : 0.0;
         for (int k = 0; k < D; ++k) direction[k] = projected * xip[k];
       }

@@ -1,0 +1,82 @@
+// `cleave check`: everything that can be said about a run without running it.
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+
+#include "run/run.hpp"
+#include "run/simulation.hpp"
+#include "scene/format.hpp"
+
+namespace cleave::driver {
+namespace {
+
+using Index = std::int64_t;
+
+void say(const std::string& line) { std::fputs((line + "\n").c_str(), stdout); }
+
+void say_bodies(const Scene& scene) {
+  for (Index body = 0; body < scene.model().bodies(); ++body) {
+    const BodyGeometry& geometry = scene.bodies()[static_cast<std::size_t>(body)];
+    const cleave_counts counts = scene.model().counts(body);
+    const Box box = bounding_box(geometry);
+    say("body " + in_quotes(geometry.name) + ": " + number(counts.particles) + " particles, " +
+        number(counts.bonds) + " bonds, " + number(counts.simplices) + " simplices, " +
+        number(counts.inert) + " bonds inert at the start");
+    say("  from " + point_text(box.lower) + " to " + point_text(box.upper) + ", shortest bond " +
+        number(shortest_edge(geometry)) + ", wave speed " + number(scene.model().wave_speed(body)));
+    for (const NamedSet& set : scene.sets().of_body(body)) {
+      say("  set " + in_quotes(set.name) + ": " + number(Index(set.particles.size())) +
+          " particles");
+    }
+  }
+}
+
+// Seconds a step, from a few steps. The model is spoiled for a run afterwards.
+double time_a_step(Scene& scene, const Clock& clock) {
+  using WallClock = std::chrono::steady_clock;
+  start_model(scene, clock.dt);
+  const auto begin = WallClock::now();
+  const auto seconds = [&] {
+    return std::chrono::duration<double>(WallClock::now() - begin).count();
+  };
+  constexpr Index kSteps = 50;
+  constexpr double kSeconds = 1.0;
+  Index step = 0;
+  while (step < std::min(kSteps, clock.steps) && seconds() < kSeconds) {
+    step_model(scene, clock, step++);
+  }
+  return seconds() / static_cast<double>(step);
+}
+
+}  // namespace
+
+int check_deck(const Deck& deck, const RunOptions& options) {
+  const int threads =
+      options.threads > 0 ? options.threads : static_cast<int>(deck.one("run").integer("threads"));
+  Scene scene = Scene::from_deck(deck, threads);
+  const TimeStep step = choose_time_step(scene);
+  // Requests for output are checked like those of a run.
+  const ResultsFile results(scene);
+  const HistoryFile history(scene);
+  double seconds = 0;
+  try {
+    seconds = time_a_step(scene, step.clock);
+  } catch (const KernelError& error) {
+    throw RunError(std::string("the first steps failed: ") + error.what());
+  }
+  if (options.quiet) return 0;
+  say_bodies(scene);
+  say("memory " + bytes_text(scene.model().memory()));
+  say("stable step " + number(step.stable) + " (" + step.governed_by + ")");
+  say("step " + number(step.clock.dt) + ", " + number(step.clock.steps) +
+      " steps to t = " + number(step.clock.time(step.clock.steps)));
+  for (const std::string& warning : step.warnings) say("warning: " + warning);
+  const double total = seconds * static_cast<double>(step.clock.steps);
+  say("estimated " + number(total / 3600, 3) + " hours (" + duration_text(total) + ") on " +
+      std::to_string(threads) + (threads == 1 ? " thread" : " threads") + ", without output");
+  say("the deck is good");
+  return 0;
+}
+
+}  // namespace cleave::driver

@@ -1,0 +1,213 @@
+#include "run/simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "io/error.hpp"
+#include "run/checkpoint_files.hpp"
+#include "scene/format.hpp"
+
+namespace cleave::driver {
+namespace {
+
+using Index = std::int64_t;
+
+// Both keys zero: about a thousand records a run.
+Schedule history_schedule(const Deck& deck, const Clock& clock) {
+  const Schedule asked(deck.one("history"), clock.dt);
+  if (!asked.never()) return asked;
+  return Schedule(0.0, std::max<Index>(1, (clock.steps + 500) / 1000), clock.dt);
+}
+
+void write_text(const std::string& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary | std::ios::trunc);
+  file << text;
+  file.close();
+  if (!file)
+    throw io::Error(path + ": cannot be written; is the disk full or the place read-only?");
+}
+
+void make_directory(const std::filesystem::path& directory) {
+  std::error_code error;
+  std::filesystem::create_directories(directory, error);
+  if (!std::filesystem::is_directory(directory)) {
+    throw io::Error(directory.string() + ": the directory cannot be made: " + error.message());
+  }
+}
+
+}  // namespace
+
+void start_model(Scene& scene, double dt) {
+  scene.put_initial_velocities();
+  scene.motions().start(scene.model(), dt);
+  scene.forces().apply(scene.model(), 0.0);
+  check(cleave_model_initialise(scene.model().handle(), 0.0));
+}
+
+void step_model(Scene& scene, const Clock& clock, Index step) {
+  Model& model = scene.model();
+  const double t = clock.time(step + 1);
+  scene.motions().before_advance(model, t);
+  check(cleave_model_advance(model.handle(), clock.dt, t));
+  scene.forces().apply(model, t);
+  scene.motions().before_update(model, clock.time(step), t, clock.time(step + 2), clock.dt);
+  check(cleave_model_update(model.handle()));
+}
+
+Simulation::Simulation(Scene& scene, const TimeStep& step, FileNames names, bool quiet)
+    : scene_(scene),
+      step_(step),
+      names_(std::move(names)),
+      progress_(quiet, scene.deck().one("run")),
+      results_(scene),
+      history_(scene),
+      result_schedule_(scene.deck().one("output"), step.clock.dt),
+      history_schedule_(history_schedule(scene.deck(), step.clock)),
+      checkpoint_schedule_(scene.deck().one("checkpoint"), step.clock.dt),
+      keep_(scene.deck().one("checkpoint").integer("keep")),
+      checkpoint_at_end_(scene.deck().one("checkpoint").logical("at_end")) {}
+
+int Simulation::run() {
+  make_directory(names_.directory);
+  set_aside(names_);
+  write_text(names_.resolved(), scene_.deck().resolved());
+  results_.create(names_.results());
+  history_.create(names_, scene_, step_.clock);
+  events_.create(names_.events(), scene_);
+  progress_.banner(scene_, step_, 0);
+  try {
+    start_model(scene_, step_.clock.dt);
+    check_finite(0);
+    history_.write(scene_, 0, 0.0);
+    results_.write_frame(scene_, 0.0);
+  } catch (const KernelError& error) {
+    throw RunError(std::string("the run failed at its start: ") + error.what());
+  }
+  return loop(0);
+}
+
+int Simulation::resume(const CheckpointHeader& header, const std::vector<std::string>& notes) {
+  results_.reopen(names_.results(), header.cursors.frames);
+  history_.reopen(names_, scene_, header.cursors.history);
+  events_.reopen(names_.events(), scene_, header.cursors.events);
+  progress_.banner(scene_, step_, header.step);
+  for (const std::string& note : notes) progress_.warn(note);
+  return loop(header.step);
+}
+
+int Simulation::loop(Index first_step) {
+  const StopRequest stop;
+  Index step = first_step;
+  good_.take(scene_, step, cursors());
+  try {
+    steps(step, stop);
+    if (step < step_.clock.steps) {
+      write_checkpoint(step);
+      progress_.finish("stopped on request after step " + number(step) + " of " +
+                           number(step_.clock.steps) + "; continue with: cleave restart " +
+                           newest_checkpoint_,
+                       file_list());
+      return 3;
+    }
+    if (checkpoint_at_end_ && step > first_step) write_checkpoint(step);
+  } catch (const KernelError& error) {
+    fail(step, error.what());
+  } catch (const io::Error& error) {
+    fail(step, error.what());
+  }
+  const auto counts = scene_.model().total_counts();
+  progress_.finish("done: " + number(step) + " steps to t = " + number(step_.clock.time(step)) +
+                       ", " + number(counts.broken) + " bonds broken",
+                   file_list());
+  return 0;
+}
+
+void Simulation::steps(Index& step, const StopRequest& stop) {
+  while (step < step_.clock.steps && !stop.requested()) {
+    step_model(scene_, step_.clock, step);
+    ++step;
+    after_step(step);
+  }
+  if (step == step_.clock.steps) progress_.status(scene_.model(), step_.clock, step);
+  events_.flush();
+  history_.flush();
+}
+
+void Simulation::after_step(Index step) {
+  events_.collect(scene_, scene_.model());
+  write_outputs(step);
+  const bool last = step == step_.clock.steps;
+  if (checkpoint_schedule_.due(step) && !(last && checkpoint_at_end_)) write_checkpoint(step);
+  if (progress_.due()) {
+    check_finite(step);
+    good_.take(scene_, step, cursors());
+    progress_.status(scene_.model(), step_.clock, step);
+  }
+}
+
+void Simulation::write_outputs(Index step) {
+  const bool last = step == step_.clock.steps;
+  const double time = step_.clock.time(step);
+  const bool record = last || history_schedule_.due(step);
+  const bool frame = last || result_schedule_.due(step);
+  if (record || frame) check_finite(step);
+  if (record) history_.write(scene_, step, time);
+  if (frame) results_.write_frame(scene_, time);
+  if (record) keep_good_state(step);
+}
+
+// A copy at every record costs little in a long run and much in one with a record a step.
+void Simulation::keep_good_state(Index step) {
+  constexpr double kShare = 0.02;  // of the wall time
+  const double begin = progress_.seconds();
+  if (snapshot_seconds_ > kShare * begin) return;
+  good_.take(scene_, step, cursors());
+  snapshot_seconds_ += progress_.seconds() - begin;
+}
+
+void Simulation::check_finite(Index step) const {
+  const cleave_energies energies = scene_.model().energies();
+  if (std::isfinite(energies.kinetic) && std::isfinite(energies.balance)) return;
+  std::string what = not_finite(scene_);
+  if (what.empty()) what = "the energies are not finite";
+  throw KernelError(what + " at step " + number(step) + ", time " + number(step_.clock.time(step)),
+                    CLEAVE_NOT_FINITE);
+}
+
+void Simulation::write_checkpoint(Index step) {
+  check_finite(step);
+  events_.flush();
+  history_.flush();
+  good_.take(scene_, step, cursors());
+  newest_checkpoint_ = names_.checkpoint(step);
+  good_.write(newest_checkpoint_, scene_, step_.clock);
+  remove_oldest(names_, step, keep_);
+}
+
+void Simulation::fail(Index step, const std::string& what) {
+  std::string text = "the run failed in step " + number(step + 1) + " (time " +
+                     number(step_.clock.time(step + 1)) + "): " + what;
+  try {
+    events_.flush();
+    history_.flush();
+    good_.write(names_.last_good(), scene_, step_.clock);
+    text += "\nThe last good state, after step " + number(good_.step()) + ", is in " +
+            names_.last_good();
+  } catch (const std::exception& error) {
+    text += "\nThe last good state could not be written: " + std::string(error.what());
+  }
+  throw RunError(text);
+}
+
+Cursors Simulation::cursors() const {
+  return {results_.frames(), history_.records(), events_.records()};
+}
+
+std::vector<std::string> Simulation::file_list() const {
+  std::vector<std::string> files{names_.results(), names_.history(), names_.events()};
+  if (!newest_checkpoint_.empty()) files.push_back(newest_checkpoint_);
+  return files;
+}
+
+}  // namespace cleave::driver

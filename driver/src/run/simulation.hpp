@@ -1,0 +1,63 @@
+// One run: the time loop, and what happens after every step (events, history, results, checkpoints,
+// progress). What is simulated is in the scene.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "run/checkpoint.hpp"
+#include "run/events_file.hpp"
+#include "run/file_names.hpp"
+#include "run/history_file.hpp"
+#include "run/progress.hpp"
+#include "run/results_file.hpp"
+#include "run/run.hpp"
+#include "run/schedule.hpp"
+#include "run/signals.hpp"
+#include "run/time_step.hpp"
+#include "scene/scene.hpp"
+
+namespace cleave::driver {
+
+// Puts initial velocities, prescribed values and forces at time 0 and initialises the model.
+void start_model(Scene& scene, double dt);
+// One step of the model from step to step + 1.
+void step_model(Scene& scene, const Clock& clock, std::int64_t step);
+
+class Simulation {
+ public:
+  Simulation(Scene& scene, const TimeStep& step, FileNames names, bool quiet);
+
+  // From time 0, with new files. Returns the exit code; throws RunError.
+  int run();
+  // After a checkpoint whose fields are in the model, with its files continued.
+  int resume(const CheckpointHeader& header, const std::vector<std::string>& notes);
+
+ private:
+  int loop(std::int64_t first_step);
+  void steps(std::int64_t& step, const StopRequest& stop);
+  void after_step(std::int64_t step);
+  void write_outputs(std::int64_t step);
+  void write_checkpoint(std::int64_t step);
+  void keep_good_state(std::int64_t step);
+  void check_finite(std::int64_t step) const;
+  [[noreturn]] void fail(std::int64_t step, const std::string& what);
+  Cursors cursors() const;
+  std::vector<std::string> file_list() const;
+
+  Scene& scene_;
+  TimeStep step_;
+  FileNames names_;
+  Progress progress_;
+  ResultsFile results_;
+  HistoryFile history_;
+  EventsFile events_;
+  Schedule result_schedule_, history_schedule_, checkpoint_schedule_;
+  std::int64_t keep_;
+  bool checkpoint_at_end_;
+  Snapshot good_;  // the last state known to be finite
+  double snapshot_seconds_ = 0;
+  std::string newest_checkpoint_;
+};
+
+}  // namespace cleave::driver
