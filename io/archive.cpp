@@ -39,12 +39,14 @@ void check_name(const std::string& path, const std::string& what, const std::str
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
   };
   const auto allowed = [&](char c) {
-    return is_word(c) || c == '.' || c == '-' || c == '@' || c == '+' || (slash_allowed && c == '/');
+    return is_word(c) || c == '.' || c == '-' || c == '@' || c == '+' ||
+           (slash_allowed && c == '/');
   };
   if (name.empty() || name.size() > 255 || !is_word(name.front()) ||
       !std::all_of(name.begin(), name.end(), allowed)) {
     throw Error(path + ": " + what + " '" + name +
-                "' has a name that cannot be stored; allowed are at most 255 letters, digits and _ . - @ + " +
+                "' has a name that cannot be stored; allowed are at most 255 letters, digits and _ "
+                ". - @ + " +
                 (slash_allowed ? "/ " : "") + "beginning with a letter, a digit or _");
   }
 }
@@ -85,7 +87,8 @@ class Dimensions {
   std::vector<int> of(const NamedArray& array) {
     const std::int64_t rows = size_of(array.data) / array.components;
     std::vector<int> ids;
-    ids.push_back(rows == 0 ? get("empty", NC_UNLIMITED) : get("size_" + std::to_string(rows), rows));
+    ids.push_back(rows == 0 ? get("empty", NC_UNLIMITED)
+                            : get("size_" + std::to_string(rows), rows));
     if (array.components > 1) {
       ids.push_back(get("components_" + std::to_string(array.components), array.components));
     }
@@ -138,7 +141,8 @@ void define_header(const NetcdfFile& file, const Archive& archive) {
   Dimensions dimensions(file);
   for (const NamedArray& array : archive.arrays) {
     const bool is_integer = std::holds_alternative<std::vector<std::int64_t>>(array.data);
-    const int variable = define_variable(file, name_in_file(array.name), is_integer, dimensions.of(array));
+    const int variable =
+        define_variable(file, name_in_file(array.name), is_integer, dimensions.of(array));
     file.put_text(variable, "units", array.units);
     file.put_text(variable, "long_name", array.description);
     file.put_text(variable, "checksum", checksum_text(checksum_of(array.data)));
@@ -157,7 +161,9 @@ void write_contents(const std::string& path, const Archive& archive) {
   for (int i = 0; i < static_cast<int>(archive.arrays.size()); ++i) {
     const NamedArray& array = archive.arrays[static_cast<std::size_t>(i)];
     if (size_of(array.data) == 0) continue;
-    const auto put = [&](const auto& values) { return nc_put_var(file.id(), i + 1, values.data()); };
+    const auto put = [&](const auto& values) {
+      return nc_put_var(file.id(), i + 1, values.data());
+    };
     file.check(std::visit(put, array.data), "write the array '" + array.name + "'");
   }
   file.check(nc_sync(file.id()), "write the file");
@@ -187,7 +193,7 @@ void write_archive(const std::string& path, const Archive& archive) {
   write_contents(file.temporary_path(), archive);
   sync_file_and_drop_cache(file.temporary_path());
   verify_archive(file.temporary_path());
-  file.commit_durably();
+  file.commit();
 }
 
 }  // namespace cleave::io

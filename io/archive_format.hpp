@@ -25,7 +25,8 @@ inline constexpr const char* kFormatName = "Cleave archive 1";
 inline std::uint64_t checksum_of_beginning(const std::string& path, std::int64_t count) {
   std::vector<char> bytes(static_cast<std::size_t>(count));
   std::ifstream stream(path, std::ios::binary);
-  if (!stream.read(bytes.data(), count)) throw Error(path + ": the header of the file cannot be read");
+  if (!stream.read(bytes.data(), count))
+    throw Error(path + ": the header of the file cannot be read");
   return crc64(std::as_bytes(std::span(bytes)));
 }
 

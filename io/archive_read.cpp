@@ -61,7 +61,8 @@ void verify_header(const std::string& path) {
   }
 }
 
-AttributeValue read_attribute(const NetcdfFile& file, const std::string& path, const std::string& name) {
+AttributeValue read_attribute(const NetcdfFile& file, const std::string& path,
+                              const std::string& name) {
   const std::string operation = "read the attribute '" + name + "'";
   nc_type type = NC_NAT;
   std::size_t length = 0;
@@ -80,13 +81,15 @@ AttributeValue read_attribute(const NetcdfFile& file, const std::string& path, c
   return value;
 }
 
-std::uint64_t parse_checksum(const std::string& path, const std::string& array, const std::string& text) {
+std::uint64_t parse_checksum(const std::string& path, const std::string& array,
+                             const std::string& text) {
   constexpr std::string_view kPrefix = "crc64:";
   std::uint64_t value = 0;
   const char* end = text.data() + text.size();
   if (!text.starts_with(kPrefix) ||
       std::from_chars(text.data() + kPrefix.size(), end, value, 16).ptr != end) {
-    fail(path, "array '" + array + "' has the checksum '" + text + "', which this version cannot read");
+    fail(path,
+         "array '" + array + "' has the checksum '" + text + "', which this version cannot read");
   }
   return value;
 }
@@ -102,7 +105,8 @@ ArrayInfo read_info(const NetcdfFile& file, const std::string& path, int variabl
   if (rank < 1 || rank > 2) fail(path, "array '" + info.name + "' is not one of an archive");
   file.check(nc_inq_var(file.id(), variable, nullptr, &type, nullptr, dimensions.data(), nullptr),
              operation);
-  if (type != NC_INT64 && type != NC_DOUBLE) fail(path, "array '" + info.name + "' has a foreign type");
+  if (type != NC_INT64 && type != NC_DOUBLE)
+    fail(path, "array '" + info.name + "' has a foreign type");
   std::array<std::size_t, 2> lengths{1, 1};
   for (std::size_t i = 0; i < static_cast<std::size_t>(rank); ++i) {
     file.check(nc_inq_dimlen(file.id(), dimensions[i], &lengths[i]), operation);
@@ -122,7 +126,8 @@ ArchiveHeader read_header(const NetcdfFile& file, const std::string& path) {
   file.check(nc_inq(file.id(), nullptr, &variables, &attributes, nullptr), "read the header");
   for (int i = 0; i < attributes; ++i) {
     std::array<char, NC_MAX_NAME + 1> name{};
-    file.check(nc_inq_attname(file.id(), NC_GLOBAL, i, name.data()), "read the name of an attribute");
+    file.check(nc_inq_attname(file.id(), NC_GLOBAL, i, name.data()),
+               "read the name of an attribute");
     header.attributes.emplace_back(name.data(), read_attribute(file, path, name.data()));
   }
   if (attributes == 0 || header.attributes.front() != Attribute{kFormat, kFormatName}) {
@@ -139,12 +144,12 @@ ArchiveHeader read_header(const NetcdfFile& file, const std::string& path) {
 // Reads the values of array `variable` in blocks of whole rows and verifies them; keeps them in
 // `keep` if that is given.
 template <class T>
-void read_values(const NetcdfFile& file, const std::string& path, int variable, const ArrayInfo& info,
-                 std::vector<T>* keep) {
+void read_values(const NetcdfFile& file, const std::string& path, int variable,
+                 const ArrayInfo& info, std::vector<T>* keep) {
   const std::int64_t rows = info.size / info.components;
   const std::int64_t block = std::max<std::int64_t>(1, kBlockValues / info.components);
-  std::vector<T> buffer(static_cast<std::size_t>(keep != nullptr ? info.size
-                                                                 : std::min(rows, block) * info.components));
+  std::vector<T> buffer(static_cast<std::size_t>(
+      keep != nullptr ? info.size : std::min(rows, block) * info.components));
   std::uint64_t checksum = 0;
   for (std::int64_t row = 0; row < rows; row += block) {
     const std::int64_t count = std::min(block, rows - row);
@@ -165,7 +170,8 @@ void read_values(const NetcdfFile& file, const std::string& path, int variable, 
 }
 
 template <class T>
-NamedArray read_array(const NetcdfFile& file, const std::string& path, int variable, const ArrayInfo& info) {
+NamedArray read_array(const NetcdfFile& file, const std::string& path, int variable,
+                      const ArrayInfo& info) {
   std::vector<T> values;
   read_values<T>(file, path, variable, info, &values);
   return {info.name, info.units, info.description, info.components, std::move(values)};

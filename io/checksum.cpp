@@ -67,7 +67,8 @@ std::uint64_t crc64(std::span<const std::int64_t> values, std::uint64_t previous
 
 std::string checksum_text(std::uint64_t checksum) {
   std::string text = "crc64:";
-  for (int shift = 60; shift >= 0; shift -= 4) text += "0123456789abcdef"[(checksum >> shift) & 0xf];
+  for (int shift = 60; shift >= 0; shift -= 4)
+    text += "0123456789abcdef"[(checksum >> shift) & 0xf];
   return text;
 }
 

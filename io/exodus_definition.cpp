@@ -14,14 +14,19 @@ namespace cleave::io {
 namespace {
 
 constexpr std::size_t kLongestName = 255;  // netCDF: 256 with the end mark
-constexpr std::int64_t kLargestCount = std::numeric_limits<std::int32_t>::max();  // in the file: int32
+constexpr std::int64_t kLargestCount =
+    std::numeric_limits<std::int32_t>::max();  // in the file: int32
 
 const char* topology(CellKind kind) {
   switch (kind) {
-    case CellKind::point: return "SPHERE";
-    case CellKind::line: return "BAR2";
-    case CellKind::triangle: return "TRI3";
-    case CellKind::tetrahedron: return "TETRA";
+    case CellKind::point:
+      return "SPHERE";
+    case CellKind::line:
+      return "BAR2";
+    case CellKind::triangle:
+      return "TRI3";
+    case CellKind::tetrahedron:
+      return "TETRA";
   }
   return "UNKNOWN";
 }
@@ -89,8 +94,9 @@ void check_sizes(const std::string& path, const ResultLayout& layout) {
                 std::to_string(layout.points.size()) + " coordinates were given");
   }
   if (points > kLargestCount || elements > kLargestCount) {
-    throw Error(path + ": " + std::to_string(points) + " points and " + std::to_string(elements) +
-                " elements are more than the 2147483647 that an Exodus file holds; write fewer bodies");
+    throw Error(
+        path + ": " + std::to_string(points) + " points and " + std::to_string(elements) +
+        " elements are more than the 2147483647 that an Exodus file holds; write fewer bodies");
   }
   if (std::ssize(layout.point_ids) != points) {
     throw Error(path + ": " + std::to_string(layout.point_ids.size()) + " point numbers for " +
@@ -111,7 +117,8 @@ void define_sizes(const ExodusFile& file, const ResultLayout& layout) {
   longest = longest_name(layout.blocks, longest_name(layout.node_sets, longest));
   longest = longest_name(layout.nodal, longest_name(layout.element, longest));
   longest = longest_name(layout.global, longest);
-  file.check(ex_set_max_name_length(file.id(), static_cast<int>(longest)), "set the length of names");
+  file.check(ex_set_max_name_length(file.id(), static_cast<int>(longest)),
+             "set the length of names");
 
   ex_init_params sizes{};
   layout.title.copy(sizes.title, MAX_LINE_LENGTH);
@@ -187,7 +194,8 @@ void put_blocks(const ExodusFile& file, const ResultLayout& layout) {
 void put_node_sets(const ExodusFile& file, const ResultLayout& layout) {
   if (layout.node_sets.empty()) return;
   Texts names(names_of(layout.node_sets));
-  file.check(ex_put_names(file.id(), EX_NODE_SET, names.data()), "write the names of the node sets");
+  file.check(ex_put_names(file.id(), EX_NODE_SET, names.data()),
+             "write the names of the node sets");
   for (std::size_t i = 0; i < layout.node_sets.size(); ++i) {
     const std::vector<std::int64_t> nodes = one_based(layout.node_sets[i].nodes);
     file.check(ex_put_set(file.id(), EX_NODE_SET, entity(i), nodes.data(), nullptr),
@@ -204,7 +212,8 @@ void put_variable_names(const ExodusFile& file, ex_entity_type type,
 }
 
 // Exodus has no place for units; attributes of the netCDF variables do not disturb its readers.
-void put_units(const ExodusFile& file, const std::string& stored_as, const ResultVariable& variable) {
+void put_units(const ExodusFile& file, const std::string& stored_as,
+               const ResultVariable& variable) {
   const std::string operation = "write the units of '" + variable.name + "'";
   const auto put = [&](int id, const char* name, const std::string& text) {
     file.check_netcdf(nc_put_att_text(file.id(), id, name, text.size(), text.data()), operation);

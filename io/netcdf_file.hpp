@@ -12,7 +12,8 @@
 namespace cleave::io {
 
 // "path: cannot <operation>: <reason>; <remedy>" for a status other than NC_NOERR.
-[[noreturn]] void throw_netcdf_error(const std::string& path, std::string_view operation, int status);
+[[noreturn]] void throw_netcdf_error(const std::string& path, std::string_view operation,
+                                     int status);
 
 class NetcdfFile {
  public:

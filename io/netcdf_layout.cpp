@@ -91,12 +91,15 @@ class HeaderReader {
 
   int read_magic() {
     std::array<char, 4> magic{};
-    if (file_bytes_ < 4) throw Error(path_ + ": is not a netCDF file: it is only " +
-                                     std::to_string(file_bytes_) + " bytes long; check the name");
+    if (file_bytes_ < 4)
+      throw Error(path_ + ": is not a netCDF file: it is only " + std::to_string(file_bytes_) +
+                  " bytes long; check the name");
     read_raw(magic.data(), 4);
     const int version = magic[3];
-    if (std::memcmp(magic.data(), "CDF", 3) != 0 || (version != 1 && version != 2 && version != 5)) {
-      throw Error(path_ + ": is not a netCDF classic file (it does not begin with 'CDF'); check the name");
+    if (std::memcmp(magic.data(), "CDF", 3) != 0 ||
+        (version != 1 && version != 2 && version != 5)) {
+      throw Error(path_ +
+                  ": is not a netCDF classic file (it does not begin with 'CDF'); check the name");
     }
     return version;
   }
@@ -245,9 +248,11 @@ void truncate_records(const std::string& path, std::int64_t records) {
   sync_file(path);
 }
 
-void throw_truncated(const std::string& path, std::int64_t found_bytes, std::int64_t promised_bytes) {
-  throw Error(path + ": is truncated: " + std::to_string(found_bytes) + " bytes, its header promises " +
-              std::to_string(promised_bytes) + "; it was not written to the end, use another");
+void throw_truncated(const std::string& path, std::int64_t found_bytes,
+                     std::int64_t promised_bytes) {
+  throw Error(path + ": is truncated: " + std::to_string(found_bytes) +
+              " bytes, its header promises " + std::to_string(promised_bytes) +
+              "; it was not written to the end, use another");
 }
 
 }  // namespace cleave::io

@@ -18,7 +18,7 @@ struct NetcdfLayout {
     std::int64_t begin = 0;  // offset of its first byte
     std::int64_t bytes = 0;  // of the whole variable, or of one record
   };
-  int version = 0;                // 1, 2 or 5
+  int version = 0;  // 1, 2 or 5
   std::int64_t header_bytes = 0;
   std::int64_t record_begin = 0;  // offset of record 0; 0 without record variables
   std::int64_t record_bytes = 0;  // one record of all record variables

@@ -18,17 +18,27 @@ namespace fs = std::filesystem;
 
 std::string_view remedy(int error) {
   switch (error) {
-    case ENOSPC: return "free space on that disk or write to another one";
-    case EDQUOT: return "your quota is used up: remove files or write to another disk";
-    case EFBIG: return "the file size limit is reached: see 'ulimit -f', or write to another disk";
+    case ENOSPC:
+      return "free space on that disk or write to another one";
+    case EDQUOT:
+      return "your quota is used up: remove files or write to another disk";
+    case EFBIG:
+      return "the file size limit is reached: see 'ulimit -f', or write to another disk";
     case EACCES:
-    case EPERM: return "check the permissions of the file and its folder";
-    case EROFS: return "that disk is read-only: write to another one";
-    case ENOENT: return "check the name, and that its folder exists";
-    case ENOTDIR: return "a part of the path is a file, not a folder: check the name";
-    case ENAMETOOLONG: return "choose a shorter name";
-    case EIO: return "the disk reports a fault: write to another one and have it checked";
-    default: return "check the file, its folder and the disk";
+    case EPERM:
+      return "check the permissions of the file and its folder";
+    case EROFS:
+      return "that disk is read-only: write to another one";
+    case ENOENT:
+      return "check the name, and that its folder exists";
+    case ENOTDIR:
+      return "a part of the path is a file, not a folder: check the name";
+    case ENAMETOOLONG:
+      return "choose a shorter name";
+    case EIO:
+      return "the disk reports a fault: write to another one and have it checked";
+    default:
+      return "check the file, its folder and the disk";
   }
 }
 
@@ -58,7 +68,8 @@ class Descriptor {
 
 // The file that a chain of symbolic links leads to, whether it exists or not.
 std::string resolve_links(fs::path path) {
-  constexpr int kMostLinks = 40;  // the limit of Linux; a longer chain is a loop, which open() reports
+  constexpr int kMostLinks =
+      40;  // the limit of Linux; a longer chain is a loop, which open() reports
   std::error_code ignored;
   for (int i = 0; i < kMostLinks && fs::is_symlink(path, ignored); ++i) {
     path = path.parent_path() / fs::read_symlink(path, ignored);
@@ -103,10 +114,6 @@ void NewFile::commit() {
     throw_system_error(path_, "give the finished file its name", errno);
   }
   committed_ = true;
-}
-
-void NewFile::commit_durably() {
-  commit();
   sync_folder_of(path_);
 }
 

@@ -10,7 +10,8 @@
 namespace cleave::io {
 
 // "path: cannot <operation>: <text of the system error>; <what to do>" as io::Error.
-[[noreturn]] void throw_system_error(const std::string& path, std::string_view operation, int error);
+[[noreturn]] void throw_system_error(const std::string& path, std::string_view operation,
+                                     int error);
 
 // A new file under construction. Until commit() it exists as temporary_path() (`path`.part) and
 // a file at `path` stays as it is; without commit() the destructor removes the temporary.
@@ -24,10 +25,9 @@ class NewFile {
   ~NewFile();
 
   const std::string& temporary_path() const { return temporary_path_; }
-  // Renames to the final name.
+  // Renames to the final name, and flushes the folder, so that the name survives a loss of power.
+  // What is in the file is flushed by sync_file.
   void commit();
-  // The same, and flushes the folder, so that the name too survives a loss of power.
-  void commit_durably();
 
  private:
   std::string path_, temporary_path_;

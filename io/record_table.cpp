@@ -108,9 +108,9 @@ void check_same_columns(const NetcdfFile& file, const std::string& path,
 struct RecordTable::Impl {
   std::string path, csv_path;
   std::vector<Column> columns;
-  std::int64_t flushed = 0;          // records in the files
-  std::int64_t csv_bytes = 0;        // length of the CSV with them
-  std::vector<double> waiting;       // records not in the files, one after the other
+  std::int64_t flushed = 0;               // records in the files
+  std::int64_t csv_bytes = 0;             // length of the CSV with them
+  std::vector<double> waiting;            // records not in the files, one after the other
   std::int64_t flush_at = kFlushRecords;  // waiting records that start a flush
 
   std::int64_t waiting_records() const { return std::ssize(waiting) / std::ssize(columns); }
@@ -174,9 +174,9 @@ void RecordTable::Impl::write_csv() {
   new_file.commit();
 }
 
-RecordTable RecordTable::create(const std::string& path, const std::string& csv_path,
-                                std::vector<Column> columns,
-                                const std::vector<std::pair<std::string, std::string>>& attributes) {
+RecordTable RecordTable::create(
+    const std::string& path, const std::string& csv_path, std::vector<Column> columns,
+    const std::vector<std::pair<std::string, std::string>>& attributes) {
   check_columns(path, columns);
   write_empty_table(path, columns, attributes);
   auto impl = std::make_unique<Impl>();
@@ -223,11 +223,12 @@ RecordTable::~RecordTable() {
 void RecordTable::append(std::span<const double> values) {
   Impl& t = *impl_;
   if (values.size() != t.columns.size()) {
-    throw Error(t.path + ": a record has " + std::to_string(values.size()) + " values, the table has " +
-                std::to_string(t.columns.size()) + " columns");
+    throw Error(t.path + ": a record has " + std::to_string(values.size()) +
+                " values, the table has " + std::to_string(t.columns.size()) + " columns");
   }
   for (std::size_t c = 0; c < values.size(); ++c) {
-    const bool is_exact = std::fabs(values[c]) <= kLargestInteger && values[c] == std::trunc(values[c]);
+    const bool is_exact =
+        std::fabs(values[c]) <= kLargestInteger && values[c] == std::trunc(values[c]);
     if (t.columns[c].is_integer && !is_exact) {
       throw Error(t.path + ": column '" + t.columns[c].name +
                   "' holds integers up to 2^53; the value given is none of them");

@@ -56,7 +56,8 @@ struct ResultsWriter::Impl {
 };
 
 void ResultsWriter::Impl::check_same(const ResultSummary& file) const {
-  const auto refuse = [&](const std::string& what, const std::string& in_file, const std::string& here) {
+  const auto refuse = [&](const std::string& what, const std::string& in_file,
+                          const std::string& here) {
     throw Error(path + ": has " + in_file + " " + what + ", this run has " + here +
                 "; continue with the deck that wrote it");
   };
@@ -76,7 +77,8 @@ void ResultsWriter::Impl::check_same(const ResultSummary& file) const {
   if (file.global != global) refuse("as global variables", join(file.global), join(global));
 }
 
-void ResultsWriter::Impl::check_values(const std::string& what, const std::vector<std::string>& names,
+void ResultsWriter::Impl::check_values(const std::string& what,
+                                       const std::vector<std::string>& names,
                                        std::span<const std::vector<double>> values,
                                        std::int64_t count) const {
   if (values.size() != names.size()) {
@@ -86,7 +88,8 @@ void ResultsWriter::Impl::check_values(const std::string& what, const std::vecto
   for (std::size_t v = 0; v < names.size(); ++v) {
     if (std::ssize(values[v]) != count) {
       throw Error(path + ": " + what + " variable '" + names[v] + "' has " +
-                  std::to_string(values[v].size()) + " values, " + std::to_string(count) + " are needed");
+                  std::to_string(values[v].size()) + " values, " + std::to_string(count) +
+                  " are needed");
     }
   }
 }
@@ -100,7 +103,8 @@ void ResultsWriter::Impl::append(double time, std::span<const std::vector<double
   const auto put = [&](const std::string& stored_as, std::int64_t count, const double* values) {
     const std::array<std::size_t, 2> start{static_cast<std::size_t>(frames), 0};
     const std::array<std::size_t, 2> extent{1, static_cast<std::size_t>(count)};
-    file.check(nc_put_vara_double(file.id(), file.variable(stored_as), start.data(), extent.data(), values),
+    file.check(nc_put_vara_double(file.id(), file.variable(stored_as), start.data(), extent.data(),
+                                  values),
                "write '" + stored_as + "' of frame " + std::to_string(frames + 1));
   };
   put("time_whole", 1, &time);
@@ -111,7 +115,8 @@ void ResultsWriter::Impl::append(double time, std::span<const std::vector<double
   for (std::size_t v = 0; v < element.size(); ++v) {
     const double* values = element_values[v].data();
     for (std::size_t b = 0; b < block_elements.size(); ++b) {
-      put("vals_elem_var" + std::to_string(v + 1) + "eb" + std::to_string(b + 1), block_elements[b], values);
+      put("vals_elem_var" + std::to_string(v + 1) + "eb" + std::to_string(b + 1), block_elements[b],
+          values);
       values += block_elements[b];
     }
   }

@@ -29,8 +29,8 @@ struct ResultVariable {
 
 // Blocks and node sets without members do not appear in the file.
 struct ResultLayout {
-  std::string title;  // cut to 80 characters by the format
-  int dimension = 3;  // 2 or 3
+  std::string title;                    // cut to 80 characters by the format
+  int dimension = 3;                    // 2 or 3
   std::vector<double> points;           // (3, n)
   std::vector<std::int64_t> point_ids;  // (n) 1-based numbers shown to users
   std::vector<ResultBlock> blocks;

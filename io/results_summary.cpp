@@ -23,8 +23,8 @@ std::int64_t length_of(const NetcdfFile& file, const std::string& name) {
 }
 
 // The variable `name` if it has the type and lengths expected; throws otherwise.
-int find_variable(const NetcdfFile& file, const std::string& path, const std::string& name, nc_type type,
-                  std::span<const std::int64_t> lengths) {
+int find_variable(const NetcdfFile& file, const std::string& path, const std::string& name,
+                  nc_type type, std::span<const std::int64_t> lengths) {
   const std::string operation = "read '" + name + "'";
   int variable = -1, rank = 0;
   nc_type found = NC_NAT;
@@ -42,14 +42,16 @@ int find_variable(const NetcdfFile& file, const std::string& path, const std::st
     }
   }
   if (!as_expected) {
-    throw Error(path + ": '" + name +
-                "' is not as in an Exodus results file; the file is damaged, or Cleave did not write it");
+    throw Error(
+        path + ": '" + name +
+        "' is not as in an Exodus results file; the file is damaged, or Cleave did not write it");
   }
   return variable;
 }
 
 std::vector<std::string> read_names(const NetcdfFile& file, const std::string& path,
-                                    const std::string& count_name, const std::string& variable_name) {
+                                    const std::string& count_name,
+                                    const std::string& variable_name) {
   const std::int64_t count = length_of(file, count_name), length = length_of(file, "len_name");
   std::vector<std::string> names;
   if (count == 0) return names;
@@ -57,20 +59,23 @@ std::vector<std::string> read_names(const NetcdfFile& file, const std::string& p
   std::string all(static_cast<std::size_t>(count * length), '\0');
   file.check(nc_get_var_text(file.id(), variable, all.data()), "read '" + variable_name + "'");
   for (std::int64_t i = 0; i < count; ++i) {
-    const std::string name = all.substr(static_cast<std::size_t>(i * length), static_cast<std::size_t>(length));
+    const std::string name =
+        all.substr(static_cast<std::size_t>(i * length), static_cast<std::size_t>(length));
     names.emplace_back(name.c_str());  // to the end mark
   }
   return names;
 }
 
-std::vector<double> read_times(const NetcdfFile& file, const std::string& path, std::int64_t complete) {
+std::vector<double> read_times(const NetcdfFile& file, const std::string& path,
+                               std::int64_t complete) {
   const int variable =
       find_variable(file, path, "time_whole", NC_DOUBLE, std::array{length_of(file, "time_step")});
   const auto count = static_cast<std::size_t>(complete);
   std::vector<double> times(count);
   const std::size_t start = 0;
   if (count > 0) {
-    file.check(nc_get_vara_double(file.id(), variable, &start, &count, times.data()), "read the times");
+    file.check(nc_get_vara_double(file.id(), variable, &start, &count, times.data()),
+               "read the times");
   }
   return times;
 }

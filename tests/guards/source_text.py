@@ -10,6 +10,7 @@ LONGEST_FILE = 700  # lines; aim at 400
 QUIET = ("kernels/", "io/", "tests/kernels/", "tests/properties/", "tests/abi/", "tests/io/", "tests/driver/",
          "tests/support/")
 LIBRARIES = ("kernels/", "io/")
+SEED = "use a generator with a written seed, so that a failure can be repeated"
 
 # (pattern, patterns of paths, folders, comments too?, complaint)
 RULES = [
@@ -19,8 +20,7 @@ RULES = [
      "a library never ends its host; return a status or throw"),
     (r"\bstd::random_device\b|\bs?rand\s*\(|std::(mt19937(_64)?|minstd_rand0?|default_random_engine)\s+\w+\s*(;|\{\s*\})",
      SOURCE, (), False, "seed the random engine with a written number, so that a failure can be repeated"),
-    (r"default_rng\(\s*\)|\brandom\.(random|uniform|randint|choice|shuffle)\(", SCRIPT, (), False,
-     "use a generator with a written seed, so that a failure can be repeated"),
+    (r"default_rng\(\s*\)|\brandom\.(random|uniform|randint|choice|shuffle)\(", SCRIPT, (), False, SEED),
     (r"-f" r"fast-math|-O" r"fast|-f(associative|unsafe|finite|reciprocal)-math|omp\s+atomic|reduction\(|"
      r"std::atomic<\s*(double|float)", SOURCE + ("*CMakeLists.txt", "*.cmake", "*.json"), (), True,
      "sums must keep their order, whatever the threads and flags"),
@@ -41,8 +41,10 @@ def check(tree):
         code = [path for path in paths if path.endswith((".c", ".h", ".cpp", ".hpp", ".def"))]
         other = [path for path in paths if path not in code]
         for path, line, match in [*tree.find(pattern, code, code_only=not comments), *tree.find(pattern, other)]:
+            if remedy == SEED and re.search(r"\bRandom\(|\bseed\(", tree.text(path)):
+                continue
             complaints.append(f"{path}:{line}: '{match.group(0).strip()}': {remedy}")
-    return complaints + _lengths(tree) + _links(tree)
+    return complaints + _lengths(tree) + _links(tree) + _decks(tree)
 
 
 def _lengths(tree):
@@ -58,4 +60,16 @@ def _links(tree):
         known = tree.has(target) or tree.paths(under=target.rstrip("/") + "/")
         if not known and re.search(r"\.(md|nml|geo|py|hpp|h|def|csv|txt)$", target):
             complaints.append(f"{path}:{line}: the link to {match.group(1)} leads nowhere")
+    return complaints
+
+
+def _decks(tree):
+    """A deck shown in a Markdown file is a file of manuals/decks, which the tests run."""
+    decks = {tree.text(path).strip() for path in tree.paths("manuals/decks/*.nml")}
+    complaints = []
+    for path in tree.paths("*.md"):
+        for match in re.finditer(r"(?m)^```\w*\n(&.*?)^```", tree.text(path), flags=re.S):
+            if match.group(1).strip() not in decks:
+                line = tree.text(path).count("\n", 0, match.start()) + 1
+                complaints.append(f"{path}:{line}: this deck is no file of manuals/decks; make it one, so that it is run")
     return complaints

@@ -111,6 +111,8 @@ class SourceText(GuardTest):
             "driver/main.cpp": "std::cout << text;\n",
             "tests/perf/a.cpp": "std::cout << rate;\n",
             "tests/io/program.cpp": "int main() { std::cout << 1; }\n",
+            "tests/io/random.py": "random = Random(7)\nx = random.choice(y)\n",
+            "manuals/decks/a.nml": "&run /\n", "manuals/a.md": "```\n&run /\n```\n",
             "README.md": "[deck](validation/a.nml) [web](https://example.org/a.md)", "validation/a.nml": "x = 'w/tmp'\n"})
 
     def test_each_mistake(self):
@@ -130,6 +132,8 @@ class SourceText(GuardTest):
                 ("io/a.cpp", "// TO" "DO", "finish it"),
                 ("manuals/a.md", "see /home/me/a", "one machine"),
                 ("manuals/a.md", "[deck](missing.nml)", "leads nowhere"),
+                ("validation/a.py", "x = random.choice(y)", "seed"),
+                ("manuals/a.md", "text\n```\n&run /\n```\n", "no file of manuals/decks"),
                 ("io/a.cpp", "\n" * 701, "split it")]:
             with self.subTest(path=path, text=text[:30]):
                 self.assert_complains(source_text, {path: text}, complaint)

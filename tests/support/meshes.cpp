@@ -68,8 +68,10 @@ SimplexMesh triangular_lattice(int columns, int rows, double h, double jitter, u
   SimplexMesh mesh;
   for (int r = 0; r < rows; ++r)
     for (int c = 0; c < columns; ++c) {
-      mesh.X.push_back(h * (c + 0.5 * (r % 2) + jitter * random()));
-      mesh.X.push_back(h * (0.5 * std::sqrt(3.0) * r + jitter * random()));
+      const bool inner = c > 0 && c < columns - 1 && r > 0 && r < rows - 1;
+      const double shift = inner ? jitter : 0.0;
+      mesh.X.push_back(h * (c + 0.5 * (r % 2) + shift * random()));
+      mesh.X.push_back(h * (0.5 * std::sqrt(3.0) * r + shift * random()));
       mesh.X.push_back(0);
     }
   const auto node = [columns](int c, int r) { return static_cast<std::int64_t>(r) * columns + c; };
@@ -83,6 +85,10 @@ SimplexMesh triangular_lattice(int columns, int rows, double h, double jitter, u
         mesh.simplices.insert(mesh.simplices.end(), {a, b, e, a, e, d});
       }
     }
+  for (int r = 1; r + 1 < rows; ++r) {
+    const int c = r % 2 == 0 ? columns - 1 : 0;
+    mesh.simplices.insert(mesh.simplices.end(), {node(c, r - 1), node(c, r), node(c, r + 1)});
+  }
   return mesh;
 }
 

@@ -20,7 +20,9 @@ struct SimplexMesh {
 // and boundary points moved by up to jitter * h. Random orientation of the simplices' corners.
 SimplexMesh patch(int dimension, int cells, double h, double jitter, unsigned seed);
 
-// Equilateral triangles of edge h in rows x columns points, even rows first; jitter as above.
+// Equilateral triangles of edge h in rows x columns points, odd rows shifted by h/2, the notches at
+// the sides closed with obtuse triangles, so that the outline is a rectangle. Only inner points are
+// moved, by up to jitter * h.
 SimplexMesh triangular_lattice(int columns, int rows, double h, double jitter, unsigned seed);
 
 // Uniform numbers in (-1, 1) that do not depend on the standard library.

@@ -30,7 +30,7 @@ struct FileNames {
 
  private:
   std::string path(const std::string& ending) const {
-    return (directory / (base + ending)).string();
+    return (directory / (base + ending)).lexically_normal().string();
   }
 };
 

@@ -105,12 +105,12 @@ void HistoryFile::add_loads(const Scene& scene) {
 void HistoryFile::add_probe(const Scene& scene, const DeckGroup& group) {
   const Deck& deck = scene.deck();
   const std::string& name = group.text("name");
+  if (!is_column_name(name)) {
+    deck.fail(group, "name", in_quotes(name) + " names a column; use letters, digits, _, - and .");
+  }
   const auto& point = group.reals("point");
   if (point.empty() == group.text("set").empty()) {
     deck.fail(group, "a probe needs either point or set");
-  }
-  if (!point.empty() && point.size() != 2 && point.size() != 3) {
-    deck.fail(group, "point", "a point has 2 or 3 numbers; here " + std::to_string(point.size()));
   }
   const std::vector<Index> bodies = scene.sets().bodies(group);
   if (bodies.size() > 1) {

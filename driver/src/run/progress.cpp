@@ -51,6 +51,7 @@ std::set<std::string> sources(const Deck& deck) {
 }  // namespace
 
 std::string duration_text(double seconds) {
+  if (seconds < 9.95) return number(seconds, 2) + " s";
   const auto total = static_cast<std::int64_t>(std::llround(std::min(seconds, 1e12)));
   const auto two = [](std::int64_t n) { return (n < 10 ? "0" : "") + std::to_string(n); };
   const std::string tail = two(total % 60);

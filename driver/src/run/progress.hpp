@@ -39,7 +39,7 @@ class Progress {
   bool line_open_ = false;
 };
 
-// Hours, minutes and seconds: "2:05:09", "0:07".
+// Hours, minutes and seconds: "2:05:09", "0:17", below ten seconds "1.2 s".
 std::string duration_text(double seconds);
 // Bytes: "12.3 MB".
 std::string bytes_text(std::int64_t bytes);

@@ -71,7 +71,7 @@ Simulation::Simulation(Scene& scene, const TimeStep& step, FileNames names, bool
 int Simulation::run() {
   make_directory(names_.directory);
   set_aside(names_);
-  write_text(names_.resolved(), scene_.deck().resolved());
+  write_text(names_.resolved(), scene_.deck().resolved(names_.directory.string()));
   results_.create(names_.results());
   history_.create(names_, scene_, step_.clock);
   events_.create(names_.events(), scene_);

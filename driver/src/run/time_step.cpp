@@ -25,6 +25,19 @@ std::string governing_body(const Scene& scene) {
   return text;
 }
 
+std::vector<std::string> implausible_units(const Scene& scene) {
+  std::vector<std::string> warnings;
+  for (std::int64_t body = 0; body < scene.model().bodies(); ++body) {
+    double density = 0;
+    check(cleave_body_get_real(scene.model().handle(), body, "material", "rho", &density));
+    const std::string text = implausible_wave_speed(scene.deck().one("run").text("units"),
+                                                    scene.model().wave_speed(body), density);
+    const std::string& name = scene.bodies()[static_cast<std::size_t>(body)].name;
+    if (!text.empty()) warnings.push_back("body " + in_quotes(name) + ": " + text);
+  }
+  return warnings;
+}
+
 }  // namespace
 
 std::int64_t steps_to_end(double t_end, double dt) {
@@ -42,6 +55,7 @@ TimeStep choose_time_step(const Scene& scene) {
   TimeStep step;
   step.stable = scene.model().stable_step();
   step.governed_by = governing_body(scene);
+  step.warnings = implausible_units(scene);
   const double wanted = given > 0 ? given : run.real("step_factor") * step.stable;
   if (!(wanted > 0)) {
     scene.deck().fail(run, "step_factor", "the time step would be zero; give step_factor > 0");

@@ -1,5 +1,6 @@
 #include "scene/body_options.hpp"
 
+#include <cmath>
 #include <map>
 
 #include "deck/kernel_tables.hpp"
@@ -9,8 +10,6 @@ namespace cleave::driver {
 namespace {
 
 using Index = std::int64_t;
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 std::int32_t kinematics_of(const std::string& name) {
   static const std::map<std::string, std::int32_t> values{{"3d", CLEAVE_3D},
@@ -25,41 +24,22 @@ std::int32_t value_of(std::int32_t table, const std::string& name) {
   return value;
 }
 
-// Every parameter of `owner`, given or default: a group that is present switches its subject on.
-void set_parameters(const DeckGroup& group, const std::string& owner, const char* kernel_group,
-                    Index body, Model& model) {
-  for (const cleave_parameter& parameter : table_parameters(owner)) {
-    if (parameter.type == CLEAVE_CHOICE) {
-      check(cleave_body_set_choice(model.handle(), body, kernel_group, parameter.name,
-                                   group.text(parameter.name).c_str()));
+// Every parameter of the group, given or default: a group that is present switches its subject on.
+void set_parameters(const DeckGroup& group, const char* kernel_group, Index body, Model& model) {
+  for (const DeckKey& key : group.keys) {
+    if (!key.parameter) continue;
+    const char* name = key.name.c_str();
+    if (const auto* choice = std::get_if<std::string>(&key.value)) {
+      check(cleave_body_set_choice(model.handle(), body, kernel_group, name, choice->c_str()));
     } else {
-      const double value = parameter.type == CLEAVE_INTEGER
-                               ? static_cast<double>(group.integer(parameter.name))
-                               : group.real(parameter.name);
-      check(cleave_body_set_real(model.handle(), body, kernel_group, parameter.name, value));
+      const auto* integer = std::get_if<std::int64_t>(&key.value);
+      const double value =
+          integer != nullptr ? static_cast<double>(*integer) : std::get<double>(key.value);
+      // A default that is not a number is computed by the kernels.
+      if (!std::isfinite(value)) continue;
+      check(cleave_body_set_real(model.handle(), body, kernel_group, name, value));
     }
   }
-}
-
-const DeckGroup& material_of(const Deck& deck, const DeckGroup& body) {
-  const DeckGroup* found = nullptr;
-  std::vector<std::string> known;
-  for (const DeckGroup* material : deck.all("material")) {
-    const std::string& name = material->text("name");
-    known.push_back(in_quotes(name));
-    if (name != body.text("material")) continue;
-    if (found != nullptr) {
-      deck.fail(*material, "name",
-                "two materials are called " + in_quotes(name) + "; give each its own name");
-    }
-    found = material;
-  }
-  if (found == nullptr) {
-    deck.fail(body, "material",
-              "there is no &material with name " + in_quotes(body.text("material")) +
-                  "; known: " + list(known));
-  }
-  return *found;
 }
 
 // Runs a call of the kernels; an error is answered with the place of `group`.
@@ -74,7 +54,7 @@ void at_place(const Deck& deck, const DeckGroup& group, Call call) {
 
 void add_body(const Deck& deck, const DeckGroup& group, const BodyGeometry& geometry,
               Model& model) {
-  const DeckGroup& material = material_of(deck, group);
+  const DeckGroup& material = named_group(deck, {"material"}, group.text("material"));
   Index body = 0;
   at_place(deck, group, [&] {
     cleave_body_spec spec{};
@@ -89,8 +69,7 @@ void add_body(const Deck& deck, const DeckGroup& group, const BodyGeometry& geom
     spec.name = geometry.name.c_str();
     body = model.add_body(spec);
   });
-  at_place(deck, material,
-           [&] { set_parameters(material, material.text("law"), "material", body, model); });
+  at_place(deck, material, [&] { set_parameters(material, "material", body, model); });
 }
 
 }  // namespace
@@ -100,18 +79,9 @@ void add_bodies(const Deck& deck, const std::vector<BodyGeometry>& bodies, const
   const auto groups = deck.all("body");
   for (std::size_t i = 0; i < groups.size(); ++i) add_body(deck, *groups[i], bodies[i], model);
   for (const cleave_table_entry& option : table_entries(CLEAVE_TABLE_GROUP)) {
-    std::vector<const DeckGroup*> applied(bodies.size(), nullptr);
     for (const DeckGroup* group : deck.all(option.name)) {
       for (const Index body : sets.bodies(*group)) {
-        if (applied[at(body)] != nullptr) {
-          deck.fail(*group, "body " + in_quotes(bodies[at(body)].name) + " already has a &" +
-                                option.name + " group in line " +
-                                std::to_string(applied[at(body)]->place.line) +
-                                "; name the body in each");
-        }
-        applied[at(body)] = group;
-        at_place(deck, *group,
-                 [&] { set_parameters(*group, option.name, option.name, body, model); });
+        at_place(deck, *group, [&] { set_parameters(*group, option.name, body, model); });
       }
     }
   }

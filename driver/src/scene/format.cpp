@@ -1,5 +1,6 @@
 #include "scene/format.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 
@@ -30,5 +31,12 @@ std::string list(const std::vector<std::string>& names, std::size_t most) {
 }
 
 std::string in_quotes(std::string_view name) { return "'" + std::string(name) + "'"; }
+
+bool is_column_name(std::string_view name) {
+  return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-' || c == '.';
+  });
+}
 
 }  // namespace cleave::driver

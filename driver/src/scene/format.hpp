@@ -18,4 +18,7 @@ std::string list(const std::vector<std::string>& names, std::size_t most = 40);
 // 'name'
 std::string in_quotes(std::string_view name);
 
+// Letters, digits, '_', '-' and '.' only, and not empty: what files can use as a name.
+bool is_column_name(std::string_view name);
+
 }  // namespace cleave::driver

@@ -64,38 +64,19 @@ io::Mesh mesh_of(const Deck& deck, const DeckGroup& group) {
   }
 }
 
+// Meshes by name, each read once.
 class Meshes {
  public:
-  explicit Meshes(const Deck& deck) : deck_(deck) {
-    for (const char* kind : {"mesh", "lattice"}) {
-      for (const DeckGroup* group : deck.all(kind)) {
-        if (!groups_.emplace(group->text("name"), group).second) {
-          deck.fail(*group, "name",
-                    "two meshes are called " + in_quotes(group->text("name")) +
-                        "; give every &mesh and &lattice its own name");
-        }
-      }
-    }
-  }
+  explicit Meshes(const Deck& deck) : deck_(deck) {}
 
-  const io::Mesh& get(const DeckGroup& body) {
-    const std::string& name = body.text("mesh");
-    const auto group = groups_.find(name);
-    if (group == groups_.end()) {
-      std::vector<std::string> known;
-      for (const auto& [key, value] : groups_) known.push_back(key);
-      deck_.fail(
-          body, "mesh",
-          "there is no &mesh or &lattice with name " + in_quotes(name) + "; known: " + list(known));
-    }
+  const io::Mesh& get(const std::string& name) {
     const auto [entry, is_new] = meshes_.try_emplace(name);
-    if (is_new) entry->second = mesh_of(deck_, *group->second);
+    if (is_new) entry->second = mesh_of(deck_, named_group(deck_, {"mesh", "lattice"}, name));
     return entry->second;
   }
 
  private:
   const Deck& deck_;
-  std::map<std::string, const DeckGroup*> groups_;
   std::map<std::string, io::Mesh> meshes_;
 };
 
@@ -153,12 +134,11 @@ void flatten(const Deck& deck, const DeckGroup& group, BodyGeometry& body) {
 
 void check_body_name(const Deck& deck, const DeckGroup& group) {
   const std::string& name = group.text("name");
-  const bool plain = !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-  });
+  // A name in an archive; '-' is not allowed there.
+  const bool plain = is_column_name(name) && name.find('-') == std::string::npos;
   if (!plain) {
     deck.fail(group, "name",
-              in_quotes(name) + " cannot name a body in files; use letters, digits and _");
+              in_quotes(name) + " cannot name a body in files; use letters, digits, _ and .");
   }
 }
 
@@ -236,27 +216,27 @@ Box bounding_box(const BodyGeometry& body) {
   return box;
 }
 
+const DeckGroup& named_group(const Deck& deck, std::initializer_list<const char*> kinds,
+                             const std::string& name) {
+  for (const char* kind : kinds) {
+    for (const DeckGroup* group : deck.all(kind)) {
+      if (group->text("name") == name) return *group;
+    }
+  }
+  throw std::logic_error("the deck was accepted without a group called " + name);
+}
+
 int dimension_of(const std::string& kinematics) { return kinematics == "3d" ? 3 : 2; }
 
 std::vector<BodyGeometry> take_bodies(const Deck& deck) {
   const auto groups = deck.all("body");
-  if (groups.empty()) {
-    throw DeckError(deck.source.path + ": the deck has no &body; add one that names a mesh, a " +
-                    "material and its kinematics");
-  }
   Meshes meshes(deck);
   std::vector<BodyGeometry> bodies;
   const auto precracks = deck.all("precrack");
   std::vector<Index> crack_use(precracks.size(), 0);
   for (const DeckGroup* group : groups) {
     check_body_name(deck, *group);
-    for (const BodyGeometry& other : bodies) {
-      if (other.name == group->text("name")) {
-        deck.fail(*group, "name",
-                  "two bodies are called " + in_quotes(other.name) + "; give each its own name");
-      }
-    }
-    bodies.push_back(take_body(deck, *group, meshes.get(*group), crack_use));
+    bodies.push_back(take_body(deck, *group, meshes.get(group->text("mesh")), crack_use));
   }
   for (std::size_t i = 0; i < precracks.size(); ++i) {
     if (precracks[i]->text("shape") == "group" && crack_use[i] == 0) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,10 @@ struct Box {
   double lower[3], upper[3];
 };
 Box bounding_box(const BodyGeometry& body);
+
+// The group of one of these kinds that has this name. The reader of decks has made sure of it.
+const DeckGroup& named_group(const Deck& deck, std::initializer_list<const char*> kinds,
+                             const std::string& name);
 
 // Dimension of a value of body.kinematics.
 int dimension_of(const std::string& kinematics);

@@ -26,7 +26,12 @@ bool same_particle_and_direction(const std::vector<Index>& sorted, Index particl
 }  // namespace
 
 std::string load_name(const Deck& deck, const DeckGroup& load) {
-  if (!load.text("name").empty()) return load.text("name");
+  const std::string& name = load.text("name");
+  if (!name.empty() && !is_column_name(name)) {
+    deck.fail(load, "name",
+              in_quotes(name) + " names columns of the history; use letters, digits, _, - and .");
+  }
+  if (!name.empty()) return name;
   const auto loads = deck.all("load");
   const auto place = std::find(loads.begin(), loads.end(), &load);
   return "load" + std::to_string(place - loads.begin() + 1);

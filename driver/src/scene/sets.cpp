@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "deck/nearest_name.hpp"
 #include "scene/format.hpp"
 
 namespace cleave::driver {
@@ -23,14 +24,6 @@ class Region {
         centre_(zone.reals("centre")),
         normal_(zone.reals("normal")),
         radius_(zone.real("radius")) {
-    for (const char* key : {"lower", "upper"}) {
-      const auto count = zone.reals(key).size();
-      if (count != 0 && count != 2 && count != 3) {
-        deck.fail(zone, key,
-                  "a corner has 2 or 3 numbers, or none for an unbounded side; here " +
-                      std::to_string(count));
-      }
-    }
     for (std::size_t k = 0; k < std::min(lower_.size(), upper_.size()); ++k) {
       if (lower_[k] > upper_[k]) {
         deck.fail(zone, "upper",
@@ -118,19 +111,16 @@ std::vector<Index> Sets::bodies(const DeckGroup& group) const {
   const std::string& name = group.text("body");
   std::vector<Index> all(geometry_.size());
   std::iota(all.begin(), all.end(), 0);
-  if (name.empty()) return all;
-  std::vector<std::string> known;
-  for (const Index body : all) {
-    if (geometry_[at(body)].name == name) return {body};
-    known.push_back(geometry_[at(body)].name);
+  if (!name.empty()) {
+    std::erase_if(all, [&](Index body) { return geometry_[at(body)].name != name; });
   }
-  deck_.fail(group, "body", "there is no body " + in_quotes(name) + "; known: " + list(known));
+  return all;
 }
 
 std::vector<Selection> Sets::select(const DeckGroup& group) const {
   const std::string& name = group.text("set");
   std::vector<Selection> selections;
-  std::vector<std::string> known;
+  std::vector<std::string> known;  // with the sets of all bodies asked for
   for (const Index body : bodies(group)) {
     if (name.empty()) {
       Selection all{body, std::vector<Index>(at(geometry_[at(body)].particles()))};
@@ -140,15 +130,14 @@ std::vector<Selection> Sets::select(const DeckGroup& group) const {
     }
     for (const NamedSet& set : sets_[at(body)]) {
       if (set.name == name) selections.push_back({body, set.particles});
-      const std::string entry = in_quotes(set.name);
-      if (std::find(known.begin(), known.end(), entry) == known.end()) known.push_back(entry);
+      if (std::find(known.begin(), known.end(), set.name) == known.end()) known.push_back(set.name);
     }
   }
   if (selections.empty()) {
     deck_.fail(
         group, "set",
-        "no particle is in a set " + in_quotes(name) +
-            "; known sets (mesh groups with particles of the body, and zones): " + list(known));
+        "no particle is in a set " + in_quotes(name) + did_you_mean(name, known, "'", "'") +
+            " Known sets (mesh groups with particles of the body, and zones): " + list(known));
   }
   return selections;
 }

@@ -26,7 +26,7 @@ TEST(Info, DescribesCheckpoints) {
   io::write_archive(path_of("a.chk"), archive);
   expect_said(file_description(path_of("a.chk")),
               {": checkpoint", "120", "0.5", "body/velocity", "[m s-1]", "3 x 4", "velocity v",
-               "&run ... (20 characters)"});
+               "&run ... (19 characters)"});
 }
 
 TEST(Info, DescribesResults) {

@@ -1,5 +1,5 @@
-// Lists with subscripts. The values are those that the namelist READ of gfortran 12 gives for real :: v(3) with
-// the same default; bad cases are those it refuses.
+// Lists with subscripts. The values are those that the namelist READ of gfortran 12 gives for
+// real :: v(3) with the same default (v(::2) is refused there, but not by the standard).
 #include <gtest/gtest.h>
 
 #include "decks.hpp"

@@ -66,7 +66,8 @@ TEST_F(DamagedArchive, SwappedAndRepeatedBlocksAreFound) {
   for (int i = 0; i < 300; ++i) {
     std::string damaged = bytes_;
     const std::size_t length = 1 + random() % 64;
-    const std::size_t from = random() % (bytes_.size() - length), to = random() % (bytes_.size() - length);
+    const std::size_t from = random() % (bytes_.size() - length),
+                      to = random() % (bytes_.size() - length);
     damaged.replace(to, length, bytes_, from, length);
     if (damaged == bytes_) continue;
     put_bytes(path_, damaged);
@@ -90,15 +91,16 @@ TEST_F(DamagedArchive, TheMessageNamesTheArray) {
   bytes_[last] = static_cast<char>(bytes_[last] ^ 1);
   put_bytes(path_, bytes_);
   const std::string message = error_of<Error>([&] { read_archive(path_); });
-  EXPECT_NE(message.find("array 'one' is damaged: its checksum is crc64:"), std::string::npos) << message;
+  EXPECT_NE(message.find("array 'one' is damaged: its checksum is crc64:"), std::string::npos)
+      << message;
   EXPECT_NO_THROW(read_archive_header(path_));  // the header is as it was
 }
 
 TEST_F(DamagedArchive, TheMessageSaysTruncated) {
   put_bytes(path_, bytes_.substr(0, bytes_.size() - 8));
   const std::string message = error_of<Error>([&] { read_archive(path_); });
-  EXPECT_NE(message.find("is truncated: " + std::to_string(bytes_.size() - 8) + " bytes, its header promises " +
-                         std::to_string(bytes_.size())),
+  EXPECT_NE(message.find("is truncated: " + std::to_string(bytes_.size() - 8) +
+                         " bytes, its header promises " + std::to_string(bytes_.size())),
             std::string::npos)
       << message;
 }
@@ -123,8 +125,9 @@ TEST_F(DamagedArchive, OtherFilesAreRefused) {
 
 TEST_F(DamagedArchive, AnAbsentFileIsNamed) {
   const std::string message = error_of<Error>([&] { read_archive(folder_.file("absent.nc")); });
-  EXPECT_NE(message.find("absent.nc: cannot read the file: No such file or directory; check the name"),
-            std::string::npos)
+  EXPECT_NE(
+      message.find("absent.nc: cannot read the file: No such file or directory; check the name"),
+      std::string::npos)
       << message;
 }
 

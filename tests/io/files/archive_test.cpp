@@ -24,7 +24,8 @@ void expect_same(const Archive& found, const Archive& expected) {
     const AttributeValue &a = found.attributes[i].second, &b = expected.attributes[i].second;
     ASSERT_EQ(a.index(), b.index());
     if (const double* real = std::get_if<double>(&a)) {
-      EXPECT_EQ(std::bit_cast<std::uint64_t>(*real), std::bit_cast<std::uint64_t>(std::get<double>(b)));
+      EXPECT_EQ(std::bit_cast<std::uint64_t>(*real),
+                std::bit_cast<std::uint64_t>(std::get<double>(b)));
     } else {
       EXPECT_EQ(a, b);
     }
@@ -67,8 +68,8 @@ TEST(Archive, HoldsLongArrays) {
   std::vector<double> values(7 * 60001);
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = 0.1 * static_cast<double>(i);
   archive.arrays.push_back({"long", "1", "", 7, values});
-  archive.arrays.push_back({"wide", "1", "one row, longer than a block", 300000,
-                            std::vector<std::int64_t>(300000, 7)});
+  archive.arrays.push_back(
+      {"wide", "1", "one row, longer than a block", 300000, std::vector<std::int64_t>(300000, 7)});
   write_archive(folder.file("long.nc"), archive);
   expect_same(read_archive(folder.file("long.nc")), archive);
   EXPECT_NO_THROW(verify_archive(folder.file("long.nc")));
@@ -97,7 +98,8 @@ TEST(Archive, HeaderTellsNamesUnitsAndSizes) {
   EXPECT_EQ(bonds->components, 2);
   EXPECT_EQ(bonds->size, 6);
   EXPECT_EQ(bonds->description, "numbers of the pair");
-  EXPECT_EQ(bonds->checksum, crc64(std::span(std::get<1>(archive.find_array("plate/bonds")->data))));
+  EXPECT_EQ(bonds->checksum,
+            crc64(std::span(std::get<1>(archive.find_array("plate/bonds")->data))));
   EXPECT_EQ(header.find_array("none")->size, 0);
   EXPECT_EQ(header.find_array("none")->components, 3);
   EXPECT_EQ(header.find_array("absent"), nullptr);
@@ -110,17 +112,20 @@ TEST(Archive, RefusesWhatItCouldNotReadBack) {
   };
   Archive archive;
   archive.arrays = {{"x", "m", "", 3, std::vector<double>(4)}};
-  EXPECT_TRUE(contains(message(archive), "'x' has 4 values, which is not a multiple of its 3 components"));
+  EXPECT_TRUE(
+      contains(message(archive), "'x' has 4 values, which is not a multiple of its 3 components"));
   archive.arrays = {{"x", "m", "", 0, std::vector<double>(4)}};
   EXPECT_TRUE(contains(message(archive), "its 0 components"));
-  archive.arrays = {{"x", "m", "", 1, std::vector<double>(1)}, {"x", "m", "", 1, std::vector<double>(1)}};
+  archive.arrays = {{"x", "m", "", 1, std::vector<double>(1)},
+                    {"x", "m", "", 1, std::vector<double>(1)}};
   EXPECT_TRUE(contains(message(archive), "array 'x' occurs twice"));
   archive.arrays = {{"header_checksum", "m", "", 1, std::vector<double>(1)}};
   EXPECT_TRUE(contains(message(archive), "reserved"));
-  for (const std::string& name : {std::string(), std::string("a b"), std::string("a:b"), std::string(".a"),
-                                  std::string("ä"), std::string(256, 'a')}) {
+  for (const std::string& name : {std::string(), std::string("a b"), std::string("a:b"),
+                                  std::string(".a"), std::string("ä"), std::string(256, 'a')}) {
     archive.arrays = {{name, "m", "", 1, std::vector<double>(1)}};
-    EXPECT_TRUE(contains(message(archive), "has a name that cannot be stored; allowed are")) << name;
+    EXPECT_TRUE(contains(message(archive), "has a name that cannot be stored; allowed are"))
+        << name;
   }
   archive.arrays.clear();
   archive.attributes = {{"a/b", 1.0}};
@@ -149,8 +154,8 @@ TEST(Archive, SaysThatAFolderIsReadOnly) {
   if (geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
   const ScratchFolder folder;
   std::filesystem::create_directory(folder.file("sub"));
-  std::filesystem::permissions(folder.file("sub"), std::filesystem::perms::owner_read |
-                                                       std::filesystem::perms::owner_exec);
+  std::filesystem::permissions(
+      folder.file("sub"), std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
   const std::string message =
       error_of<Error>([&] { write_archive(folder.file("sub/state.nc"), sample_archive()); });
   EXPECT_TRUE(contains(message, "Permission denied; check the permissions")) << message;
@@ -173,7 +178,8 @@ TEST(Archive, AFullDiskLeavesTheOldFile) {
       const FileSizeLimit full(limit);
       message = error_of<Error>([&] { write_archive(path, sample_archive()); });
     }
-    ASSERT_TRUE(contains(message, path) && contains(message, "File too large")) << limit << ": " << message;
+    ASSERT_TRUE(contains(message, path) && contains(message, "File too large"))
+        << limit << ": " << message;
     ASSERT_EQ(bytes_of(path), old_bytes);
     ASSERT_EQ(folder.entries(), 2u);
   }

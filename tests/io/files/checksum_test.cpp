@@ -21,7 +21,8 @@ TEST(Checksum, AgreesWithThePublishedCheckValue) {
 TEST(Checksum, OfNumbersIsThatOfTheirLittleEndianBytes) {
   const std::vector<std::int64_t> integers{0x3837363534333231, -2};
   EXPECT_EQ(crc64(std::span(integers)), of_text("12345678\xfe\xff\xff\xff\xff\xff\xff\xff"));
-  const std::vector<double> reals{std::bit_cast<double>(integers[0]), std::bit_cast<double>(integers[1])};
+  const std::vector<double> reals{std::bit_cast<double>(integers[0]),
+                                  std::bit_cast<double>(integers[1])};
   EXPECT_EQ(crc64(std::span(reals)), crc64(std::span(integers)));
 }
 
@@ -35,7 +36,8 @@ TEST(Checksum, CanBeContinued) {
 
 TEST(Checksum, ChangesWithEveryBit) {
   std::vector<std::int64_t> values(40);
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<std::int64_t>(i * i * 977);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = static_cast<std::int64_t>(i * i * 977);
   const std::uint64_t before = crc64(std::span(values));
   for (std::int64_t& value : values) {
     for (int bit = 0; bit < 63; ++bit) {

@@ -41,7 +41,8 @@ void make_file(const std::string& path, int mode, const std::vector<nc_type>& re
     const std::array<std::size_t, 2> start{r, 0}, count{1, 3};
     const std::vector<double> row(3, static_cast<double>(r + 1));
     for (const int variable : variables) {
-      ASSERT_EQ(nc_put_vara_double(file, variable, start.data(), count.data(), row.data()), NC_NOERR);
+      ASSERT_EQ(nc_put_vara_double(file, variable, start.data(), count.data(), row.data()),
+                NC_NOERR);
     }
   }
   ASSERT_EQ(nc_close(file), NC_NOERR);
@@ -111,7 +112,8 @@ TEST(NetcdfLayout, AnIncompleteLastRecordIsDropped) {
   const ScratchFolder folder;
   make_file(folder.file("two.nc"), NC_64BIT_DATA, {NC_DOUBLE}, 2);
   make_file(folder.file("three.nc"), NC_64BIT_DATA, {NC_DOUBLE}, 3);
-  const std::string two = bytes_of(folder.file("two.nc")), three = bytes_of(folder.file("three.nc"));
+  const std::string two = bytes_of(folder.file("two.nc")),
+                    three = bytes_of(folder.file("three.nc"));
   for (std::size_t length = two.size(); length < three.size(); ++length) {
     put_bytes(folder.file("a.nc"), three.substr(0, length));
     const NetcdfLayout layout = read_netcdf_layout(folder.file("a.nc"));
@@ -127,7 +129,8 @@ TEST(NetcdfLayout, TooFewRecordsAreAnError) {
   make_file(folder.file("a.nc"), NC_64BIT_DATA, {NC_DOUBLE}, 2);
   const std::string before = bytes_of(folder.file("a.nc"));
   const std::string message = error_of<Error>([&] { truncate_records(folder.file("a.nc"), 3); });
-  EXPECT_NE(message.find("a.nc: has 2 records, 3 are needed to continue"), std::string::npos) << message;
+  EXPECT_NE(message.find("a.nc: has 2 records, 3 are needed to continue"), std::string::npos)
+      << message;
   EXPECT_EQ(bytes_of(folder.file("a.nc")), before);
 }
 
@@ -139,7 +142,8 @@ TEST(NetcdfLayout, FilesTruncatedBeforeTheLastRecordAreAnError) {
     const std::string bytes = bytes_of(folder.file("a.nc"));
     for (std::size_t length = 0; length < bytes.size(); ++length) {
       put_bytes(folder.file("b.nc"), bytes.substr(0, length));
-      const std::string message = error_of<Error>([&] { truncate_records(folder.file("b.nc"), 2); });
+      const std::string message =
+          error_of<Error>([&] { truncate_records(folder.file("b.nc"), 2); });
       ASSERT_TRUE(message.starts_with(folder.file("b.nc") + ": ")) << length;
     }
   }
@@ -158,7 +162,8 @@ TEST(NetcdfLayout, SurvivesDamage) {
     put_bytes(folder.file("b.nc"), damaged);
     try {
       const NetcdfLayout layout = read_netcdf_layout(folder.file("b.nc"));
-      ASSERT_LE(layout.found_records * layout.record_bytes, static_cast<std::int64_t>(bytes.size()));
+      ASSERT_LE(layout.found_records * layout.record_bytes,
+                static_cast<std::int64_t>(bytes.size()));
     } catch (const Error&) {
       ++refused;
     }

@@ -16,7 +16,7 @@ TEST(NewFile, ReplacesTheOldOneWhenCommitted) {
     NewFile file(folder.file("a"));
     put_bytes(file.temporary_path(), "new");
     EXPECT_EQ(bytes_of(folder.file("a")), "old");
-    file.commit_durably();
+    file.commit();
   }
   EXPECT_EQ(bytes_of(folder.file("a")), "new");
   EXPECT_EQ(folder.entries(), 1u);
@@ -37,18 +37,20 @@ TEST(NewFile, LeavesNothingWithoutCommit) {
 TEST(NewFile, SaysWhatFailed) {
   const ScratchFolder folder;
   NewFile never_written(folder.file("a"));
-  EXPECT_EQ(error_of<Error>([&] { never_written.commit(); }),
-            folder.file("a") +
-                ": cannot give the finished file its name: No such file or directory; check the name, "
-                "and that its folder exists");
+  EXPECT_EQ(
+      error_of<Error>([&] { never_written.commit(); }),
+      folder.file("a") +
+          ": cannot give the finished file its name: No such file or directory; check the name, "
+          "and that its folder exists");
   EXPECT_NE(error_of<Error>([] { NewFile(""); }).find("without a name"), std::string::npos);
 }
 
 // /dev/full is a disk without any space.
 TEST(NewFile, AppendingToAFullDiskIsAnError) {
-  EXPECT_EQ(error_of<Error>([] { append_to_file("/dev/full", "text"); }),
-            "/dev/full: cannot write to the file: No space left on device; free space on that disk or "
-            "write to another one");
+  EXPECT_EQ(
+      error_of<Error>([] { append_to_file("/dev/full", "text"); }),
+      "/dev/full: cannot write to the file: No space left on device; free space on that disk or "
+      "write to another one");
 }
 
 }  // namespace

@@ -43,15 +43,17 @@ std::vector<double> read_column(const std::string& path, int variable) {
 class Table : public testing::Test {
  protected:
   RecordTable create() { return RecordTable::create(path_, csv_, kColumns, {{"units", "SI"}}); }
-  RecordTable reopen(std::int64_t records) { return RecordTable::reopen(path_, csv_, kColumns, records); }
+  RecordTable reopen(std::int64_t records) {
+    return RecordTable::reopen(path_, csv_, kColumns, records);
+  }
   static void append(RecordTable& table, std::int64_t from, std::int64_t to) {
     for (std::int64_t i = from; i < to; ++i) table.append(record(i));
   }
   // The two files of a table with `records` records that was written at once.
   std::pair<std::string, std::string> expected(std::int64_t records) {
     {
-      auto table = RecordTable::create(folder_.file("expected.nc"), folder_.file("expected.csv"), kColumns,
-                                       {{"units", "SI"}});
+      auto table = RecordTable::create(folder_.file("expected.nc"), folder_.file("expected.csv"),
+                                       kColumns, {{"units", "SI"}});
       append(table, 0, records);
     }
     return {bytes_of(folder_.file("expected.nc")), bytes_of(folder_.file("expected.csv"))};
@@ -87,7 +89,8 @@ TEST_F(Table, CsvIsPlainAndReadsBackExactly) {
   table.append(std::vector{2.0, std::copysign(Limits::quiet_NaN(), -1.0), Limits::infinity()});
   table.flush();
   EXPECT_EQ(bytes_of(csv_),
-            "step [1],time [s],energy [J]\n1,0.1,1e+300\n-9007199254740992,nan,-inf\n0,-0,5e-324\n2,nan,inf\n");
+            "step [1],time [s],energy "
+            "[J]\n1,0.1,1e+300\n-9007199254740992,nan,-inf\n0,-0,5e-324\n2,nan,inf\n");
   const std::vector<double> times = read_column(path_, 1);
   EXPECT_TRUE(std::isnan(times[1]));
   EXPECT_TRUE(std::signbit(times[2]));
@@ -173,8 +176,9 @@ TEST_F(Table, ReopeningAnotherTableIsAnError) {
   EXPECT_TRUE(contains(message({kColumns[0]}, 4), "has 3 columns, this run has 1"));
   std::vector<Column> columns = kColumns;
   columns[2].units = "kJ";
-  EXPECT_TRUE(contains(message(columns, 4),
-                       "column 3 is 'energy [J]', this run has 'energy [kJ]'; continue with the deck"));
+  EXPECT_TRUE(
+      contains(message(columns, 4),
+               "column 3 is 'energy [J]', this run has 'energy [kJ]'; continue with the deck"));
   columns = kColumns;
   columns[0].is_integer = false;
   EXPECT_TRUE(contains(message(columns, 4), "column 1 is"));
@@ -191,10 +195,12 @@ TEST_F(Table, RefusesRecordsThatDoNotFit) {
   RecordTable table = create();
   for (const double bad : {0.5, 1e300, std::numeric_limits<double>::quiet_NaN()}) {
     const std::string message = error_of<Error>([&] { table.append(std::vector{bad, 0.0, 0.0}); });
-    EXPECT_NE(message.find("column 'step' holds integers up to 2^53"), std::string::npos) << message;
+    EXPECT_NE(message.find("column 'step' holds integers up to 2^53"), std::string::npos)
+        << message;
   }
   const std::string message = error_of<Error>([&] { table.append(std::vector{1.0}); });
-  EXPECT_NE(message.find("a record has 1 values, the table has 3 columns"), std::string::npos) << message;
+  EXPECT_NE(message.find("a record has 1 values, the table has 3 columns"), std::string::npos)
+      << message;
   EXPECT_EQ(table.records(), 0);
 }
 
@@ -203,7 +209,8 @@ TEST_F(Table, RefusesColumnsThatCannotBe) {
     return error_of<Error>([&] { RecordTable::create(path_, csv_, std::move(columns), {}); });
   };
   EXPECT_NE(message({}).find("at least one column"), std::string::npos);
-  EXPECT_NE(message({kColumns[0], kColumns[0]}).find("two columns have the name 'step'"), std::string::npos);
+  EXPECT_NE(message({kColumns[0], kColumns[0]}).find("two columns have the name 'step'"),
+            std::string::npos);
   EXPECT_NE(message({{"a/b", "", "", false}}).find("define the column 'a/b'"), std::string::npos);
   EXPECT_EQ(folder_.entries(), 0u);
 }

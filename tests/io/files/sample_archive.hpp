@@ -19,11 +19,13 @@ inline cleave::io::Archive sample_archive() {
                         {"step", std::int64_t{Integers::max()}},
                         {"time", 0.1},
                         {"not_reached", Limits::quiet_NaN()}};
-  const std::vector<double> special{0.0,  -0.0, Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity(),
-                                    1e-310, Limits::max()};
+  const std::vector<double> special{
+      0.0,    -0.0,         Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity(),
+      1e-310, Limits::max()};
   archive.arrays = {
       {"plate/x", "m", "current position", 3, std::vector<double>{1, 2, 3, 4, 5, 6.5}},
-      {"plate/bonds", "1", "numbers of the pair", 2, std::vector<std::int64_t>{1, 2, 2, 3, Integers::min(), -1}},
+      {"plate/bonds", "1", "numbers of the pair", 2,
+       std::vector<std::int64_t>{1, 2, 2, 3, Integers::min(), -1}},
       {"special", "1", "values that are easily lost", 1, special},
       {"none", "N", "no force", 3, std::vector<double>{}},
       {"no_ids", "", "", 1, std::vector<std::int64_t>{}},

@@ -43,7 +43,8 @@ inline std::string bytes_of(const std::string& path) {
 
 inline void put_bytes(const std::string& path, const std::string& bytes) {
   std::error_code ignored;
-  std::filesystem::remove(path, ignored);  // ext4 waits for the disk when an old file is overwritten
+  std::filesystem::remove(path,
+                          ignored);  // ext4 waits for the disk when an old file is overwritten
   std::ofstream(path, std::ios::binary) << bytes;
 }
 

@@ -14,12 +14,11 @@ using namespace cleave::io;
 constexpr int kFrames = 4, kRecords = 5000;
 
 void write_table(const std::string& folder) {
-  RecordTable table = RecordTable::create(
-      folder + "/history.nc", folder + "/history.csv",
-      {{"step", "1", "number of the step", true},
-       {"time", "ms", "time at the end of the step", false},
-       {"balance", "mJ", "energy balance", false}},
-      {{"units", "mm-ms-g-MPa"}});
+  RecordTable table = RecordTable::create(folder + "/history.nc", folder + "/history.csv",
+                                          {{"step", "1", "number of the step", true},
+                                           {"time", "ms", "time at the end of the step", false},
+                                           {"balance", "mJ", "energy balance", false}},
+                                          {{"units", "mm-ms-g-MPa"}});
   for (int i = 0; i < kRecords; ++i) {
     const double balance = i == 7 ? std::nan("") : std::ldexp(1.0 / (i + 1), -i / 10);
     table.append(std::vector<double>{10.0 * i, i / 3.0, balance});

@@ -216,20 +216,20 @@ TEST(Lattice, DiagonalsOfTheSquareAlternate) {
 }
 
 TEST(Lattice, DiscAndSphereConverge) {
-  // The shape less a layer of about half a spacing. Measured: 0.953, 0.977 (2-D, kinds as listed),
-  // 0.86 to 0.93 (3-D).
+  // The shape less a layer of about half a spacing. Measured: 0.949 and 0.957 (disc), 0.829, 0.882 and
+  // 0.869 (sphere), in the order of the kinds.
   for (const LatticeKind kind : {LatticeKind::square, LatticeKind::hexagonal}) {
     const Mesh disc = make_lattice(rounded(kind, ShapeKind::sphere, 20 * kSpacing));
     const double ratio =
         total_measure(disc, disc.triangles) / (std::numbers::pi * std::pow(20 * kSpacing, 2));
-    printf("R2 %g\n",ratio);EXPECT_GT(ratio, 0.94);
+    EXPECT_GT(ratio, 0.94);
     EXPECT_LT(ratio, 1);
   }
   for (const LatticeKind kind : {LatticeKind::cubic, LatticeKind::bcc, LatticeKind::fcc}) {
     const Mesh ball = make_lattice(rounded(kind, ShapeKind::sphere, 10 * kSpacing));
     const double ratio = total_measure(ball, ball.tetrahedra) /
                          (4 * std::numbers::pi / 3 * std::pow(10 * kSpacing, 3));
-    printf("R3 %g\n",ratio);EXPECT_GT(ratio, 0.81);
+    EXPECT_GT(ratio, 0.81);
     EXPECT_LT(ratio, 1);
     for (std::int64_t node = 0; node < ball.point_count(); ++node) {
       double square = 0;
@@ -261,7 +261,7 @@ TEST(Lattice, CylinderAlongEveryAxis) {
     const Mesh mesh = make_lattice(spec);
     const double volume = total_measure(mesh, mesh.tetrahedra);
     if (axis == 0) first = volume;
-    printf("C %g\n",volume);EXPECT_NEAR(volume / first, 1, 0.02);  // the Kuhn split is not symmetric: measured 0 here
+    EXPECT_NEAR(volume / first, 1, 1e-12);  // the split treats the axes alike; measured 0
     const std::string letter(1, static_cast<char>('x' + axis));
     ASSERT_EQ(mesh.groups.size(), 3U);
     for (const std::int64_t node : mesh.find_group(letter + "max")->nodes)
