@@ -31,6 +31,31 @@ std::uint64_t checksum_of(const ArrayData& data) {
   return std::visit([](const auto& values) { return crc64(std::span(values)); }, data);
 }
 
+ArchiveHeader describe(const Archive& archive) {
+  ArchiveHeader header{archive.attributes, {}};
+  for (const NamedArray& array : archive.arrays) {
+    const bool is_integer = std::holds_alternative<std::vector<std::int64_t>>(array.data);
+    header.arrays.push_back({array.name, array.units, array.description, is_integer,
+                             array.components, size_of(array.data), checksum_of(array.data)});
+  }
+  return header;
+}
+
+// Bit for bit: a number that is not a number equals itself.
+bool same_value(const AttributeValue& a, const AttributeValue& b) {
+  const auto *x = std::get_if<double>(&a), *y = std::get_if<double>(&b);
+  if (x == nullptr || y == nullptr) return a == b;
+  return std::bit_cast<std::uint64_t>(*x) == std::bit_cast<std::uint64_t>(*y);
+}
+
+bool same_header(const ArchiveHeader& a, const ArchiveHeader& b) {
+  return a.arrays == b.arrays &&
+         std::equal(a.attributes.begin(), a.attributes.end(), b.attributes.begin(),
+                    b.attributes.end(), [](const Attribute& x, const Attribute& y) {
+                      return x.first == y.first && same_value(x.second, y.second);
+                    });
+}
+
 // ---- checks before writing -------------------------------------------------------------------
 
 void check_name(const std::string& path, const std::string& what, const std::string& name,
@@ -84,8 +109,8 @@ class Dimensions {
   explicit Dimensions(const NetcdfFile& file) : file_(file) {}
 
   // The netCDF dimensions of an array, slowest first.
-  std::vector<int> of(const NamedArray& array) {
-    const std::int64_t rows = size_of(array.data) / array.components;
+  std::vector<int> of(const ArrayInfo& array) {
+    const std::int64_t rows = array.size / array.components;
     std::vector<int> ids;
     ids.push_back(rows == 0 ? get("empty", NC_UNLIMITED)
                             : get("size_" + std::to_string(rows), rows));
@@ -131,28 +156,27 @@ int define_variable(const NetcdfFile& file, const std::string& name, bool is_int
   return variable;
 }
 
-void define_header(const NetcdfFile& file, const Archive& archive) {
+void define_header(const NetcdfFile& file, const ArchiveHeader& header) {
   file.put_text(NC_GLOBAL, kFormat, kFormatName);
-  for (const auto& [name, value] : archive.attributes) put_attribute(file, name, value);
+  for (const auto& [name, value] : header.attributes) put_attribute(file, name, value);
   const int checksum = define_variable(file, kHeaderChecksum, true, {});
   file.put_text(checksum, "long_name",
                 "CRC-64/XZ of all bytes of this file before this variable; attributes 'checksum': "
                 "CRC-64/XZ of the values of an array, least significant byte first");
   Dimensions dimensions(file);
-  for (const NamedArray& array : archive.arrays) {
-    const bool is_integer = std::holds_alternative<std::vector<std::int64_t>>(array.data);
+  for (const ArrayInfo& array : header.arrays) {
     const int variable =
-        define_variable(file, name_in_file(array.name), is_integer, dimensions.of(array));
+        define_variable(file, name_in_file(array.name), array.is_integer, dimensions.of(array));
     file.put_text(variable, "units", array.units);
     file.put_text(variable, "long_name", array.description);
-    file.put_text(variable, "checksum", checksum_text(checksum_of(array.data)));
+    file.put_text(variable, "checksum", checksum_text(array.checksum));
   }
   file.end_definitions();
 }
 
-void write_contents(const std::string& path, const Archive& archive) {
+void write_contents(const std::string& path, const ArchiveHeader& header, const Archive& archive) {
   NetcdfFile file = NetcdfFile::create(path);
-  define_header(file, archive);
+  define_header(file, header);
   const auto put_header_checksum = [&](std::uint64_t checksum) {
     const auto value = std::bit_cast<long long>(checksum);
     file.check(nc_put_var_longlong(file.id(), 0, &value), "write the checksum of the header");
@@ -189,10 +213,16 @@ const NamedArray* Archive::find_array(const std::string& name) const {
 
 void write_archive(const std::string& path, const Archive& archive) {
   check_archive(path, archive);
+  const ArchiveHeader header = describe(archive);
   NewFile file(path);
-  write_contents(file.temporary_path(), archive);
+  write_contents(file.temporary_path(), header, archive);
   sync_file_and_drop_cache(file.temporary_path());
   verify_archive(file.temporary_path());
+  // The checksum of the header was made from the file, so the header itself is compared, too.
+  if (!same_header(read_archive_header(file.temporary_path()), header)) {
+    throw Error(path + ": was not written as it should be: its header reads back differently; write to "
+                "another disk and have this one checked");
+  }
   file.commit();
 }
 

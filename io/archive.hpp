@@ -44,6 +44,8 @@ struct ArrayInfo {
   std::int64_t components = 1;
   std::int64_t size = 0;       // values, all components together
   std::uint64_t checksum = 0;  // CRC-64/XZ of the values (io/checksum.hpp)
+
+  bool operator==(const ArrayInfo&) const = default;
 };
 
 struct ArchiveHeader {

@@ -46,10 +46,7 @@ void verify_header(const std::string& path) {
       layout.variables.front().name != kHeaderChecksum) {
     fail(path, "is a netCDF file, but not an archive written by Cleave, or its header is damaged");
   }
-  if (layout.found_bytes < layout.promised_bytes) {
-    throw_truncated(path, layout.found_bytes, layout.promised_bytes);
-  }
-  if (layout.found_bytes > layout.promised_bytes) {
+  if (layout.found_bytes != layout.promised_bytes) {
     fail(path, "is " + std::to_string(layout.found_bytes) + " bytes long, its header promises " +
                    std::to_string(layout.promised_bytes));
   }

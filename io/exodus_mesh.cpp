@@ -13,7 +13,9 @@
 #include <string>
 #include <vector>
 
+#include "io/error.hpp"
 #include "io/exodus_mesh_input.hpp"
+#include "io/exodus_mesh_trial.hpp"
 #include "io/mesh_builder.hpp"
 #include "io/netcdf_layout.hpp"
 
@@ -274,10 +276,7 @@ Reader open(const NetcdfInput& file, MeshBuilder& builder) {
   return Reader{file, builder, static_cast<int>(*dimension), *nodes, {}};
 }
 
-}  // namespace
-
-Mesh read_exodus_mesh(const std::string& path, NetcdfForm form, std::size_t file_size) {
-  if (form == NetcdfForm::classic) read_netcdf_layout(path);  // refuses a truncated file
+Mesh read(const std::string& path, std::size_t file_size) {
   const NetcdfInput file(path, file_size);
   MeshBuilder builder(path);
   Reader reader = open(file, builder);
@@ -297,6 +296,18 @@ Mesh read_exodus_mesh(const std::string& path, NetcdfForm form, std::size_t file
   for (std::size_t i = 0; i < side_set_names.size(); ++i)
     read_side_set(reader, i + 1, side_set_names[i]);
   return builder.finish();
+}
+
+}  // namespace
+
+Mesh read_exodus_mesh(const std::string& path, NetcdfForm form, std::size_t file_size) {
+  if (form == NetcdfForm::classic) {
+    read_netcdf_layout(path);  // refuses a truncated file
+  } else if (!survives([&] { read(path, file_size); })) {
+    throw Error(
+        path + ": a netCDF-4 file so damaged that the HDF5 library cannot read it; write it again");
+  }
+  return read(path, file_size);
 }
 
 }  // namespace cleave::io

@@ -108,6 +108,7 @@ void Cursor::fail(Place place, const std::string& message) const {
 }
 
 std::string_view File::source_line(int line) const {
+  if (line < 1) return {};
   std::size_t begin = 0;
   for (int n = 1; n < line; ++n) {
     const std::size_t end = text.find('\n', begin);

@@ -120,6 +120,11 @@ bool logical_of(std::string_view word) {
   return c == 't' || c == 'T';
 }
 
+bool is_in_subscript(char c) {
+  return is_name_char(c) || is_blank(c) || c == '\n' || c == '+' || c == '-' || c == ':' ||
+         c == ',';
+}
+
 // End of the token at `offset`: the next separator or `stop`; parentheses directly after nan belong
 // to it.
 std::size_t token_end(const Cursor& at, std::size_t offset, char stop) {
@@ -279,13 +284,16 @@ bool is_name_next(const Cursor& at) {
   std::size_t end = at.offset();
   while (is_name_char(at.at(end))) ++end;
   const std::string_view word = std::string_view(at.text()).substr(at.offset(), end - at.offset());
-  if (at.at(end) == '(' && lower_case(word) == "nan") {
-    std::size_t close = end + 1;
-    while (is_name_char(at.at(close))) ++close;
-    if (at.at(close) == ')') end = close + 1;
+  std::size_t next = at.after_white(end);
+  if (at.at(next) == '(' && !is_logical(word) && !special_real(word)) return true;
+  // `nan(1)` and `t (1,2)` may be values; subscripts have '=' or '%' behind them.
+  while (at.at(next) == '(') {
+    do ++next;
+    while (is_in_subscript(at.at(next)));
+    if (at.at(next) != ')') return false;
+    next = at.after_white(next + 1);
   }
-  const char follows = at.at(at.after_white(end));
-  return follows == '=' || follows == '%' || follows == '(';
+  return at.at(next) == '=' || at.at(next) == '%';
 }
 
 Value read_value(Cursor& at) {

@@ -192,7 +192,11 @@ class HeaderReader {
                                      [](const auto& variable) { return variable.is_record; });
       layout.record_bytes = lone->bytes;
     }
-    if (file_bytes_ < end) throw_truncated(path_, file_bytes_, end);
+    if (file_bytes_ < end) {
+      throw Error(path_ + ": is truncated: " + std::to_string(file_bytes_) +
+                  " bytes, its header promises " + std::to_string(end) +
+                  "; it was not written to the end, use another");
+    }
     count_records(layout, end);
   }
 
@@ -246,13 +250,6 @@ void truncate_records(const std::string& path, std::int64_t records) {
     set_file_size(path, layout.record_begin + records * layout.record_bytes);
   }
   sync_file(path);
-}
-
-void throw_truncated(const std::string& path, std::int64_t found_bytes,
-                     std::int64_t promised_bytes) {
-  throw Error(path + ": is truncated: " + std::to_string(found_bytes) +
-              " bytes, its header promises " + std::to_string(promised_bytes) +
-              "; it was not written to the end, use another");
 }
 
 }  // namespace cleave::io

@@ -36,8 +36,4 @@ NetcdfLayout read_netcdf_layout(const std::string& path);
 // repeated. Throws io::Error if the file has fewer.
 void truncate_records(const std::string& path, std::int64_t records);
 
-// "path: is truncated: ..." for a file that is shorter than `promised_bytes`.
-[[noreturn]] void throw_truncated(const std::string& path, std::int64_t found_bytes,
-                                  std::int64_t promised_bytes);
-
 }  // namespace cleave::io

@@ -23,7 +23,7 @@ html_theme = "alabaster"
 html_theme_options = {
     "description": "Impact and dynamic fracture with particle methods",
     "fixed_sidebar": True,
-    "page_width": "1080px",
+    "page_width": "1160px",
     "sidebar_width": "230px",
     "show_powered_by": False,
     "show_relbars": True,

@@ -1,6 +1,6 @@
 """Plane P and S waves against the exact solution, in two and three dimensions; a spinning free body.
 
-Wave runs: wave_lattice.nml and wave_mesh.nml with other spacings and kinematics.  Error: L2 norm of u - g(t - y/c) over
+Wave runs: the decks wave_*.nml with other spacings and kinematics.  Error: L2 norm of u - g(t - y/c) over
 all particles relative to that of g, at the last frame.  Speed: the shift that fits the wave best is taken in two frames;
 its change over the time between them is the error of the speed.  Order: log2 of the errors of the two finest spacings.
 """
@@ -17,7 +17,7 @@ LONGITUDINAL = {
     "plane_stress": YOUNG / (1 - POISSON**2),
     "3d": YOUNG * (1 - POISSON) / ((1 + POISSON) * (1 - 2 * POISSON)),
 }
-SIZE = (4e-3, 40e-3, 4e-3)                       # bar [m]; the wave runs along y
+WIDTH, BAR = 4e-3, 40e-3                         # of the bar [m]
 LENGTH, TRAVEL, FRAME = 12e-3, 30e-3, 10e-3      # of the wave, its way, its way between frames [m]
 HEIGHT = 1e-8                                    # displacement behind the wave [m]
 
@@ -45,19 +45,35 @@ def wave_speed(kinematics, wave):
     return math.sqrt((LONGITUDINAL[kinematics] if wave == "P" else SHEAR) / DENSITY)
 
 
+def wave_axis(series):
+    """Along which axis the wave of a series runs: 0 or 1; see wave_hexagonal.nml."""
+    return 0 if series == "hexagonal" else 1
+
+
+def moving_axis(series, wave):
+    return wave_axis(series) if wave == "P" else 1 - wave_axis(series)
+
+
+def timing(speed):
+    return {"run.t_end": TRAVEL / speed, "load(1).ramp": LENGTH / speed, "output.every_time": FRAME / speed}
+
+
 def wave_run(series, wave, level):
     """One plane wave: what moves, what is held, and times that follow the wave's speed."""
     mesh, kinematics, _, _ = SERIES[series]
     spacing, speed, deep = 1e-3 / 2**level, wave_speed(kinematics, wave), kinematics == "3d"
-    moving = "y" if wave == "P" else "x"
-    changes = {"run.t_end": TRAVEL / speed, "load(1).ramp": LENGTH / speed, "output.every_time": FRAME / speed,
-               "body.kinematics": kinematics, "load(1).directions": moving,
-               "load(2).directions": "xyz"[: 3 if deep else 2].replace(moving, "")}
-    name = f"{series}-{wave}-{level}"
+    name, moving = f"{series}-{wave}-{level}", "xyz"[moving_axis(series, wave)]
+    changes = timing(speed) | {"body.kinematics": kinematics, "load(1).directions": moving}
+    held = "xyz"[: 3 if deep else 2].replace(moving, "")
     if mesh == "gmsh":
-        parameters = (("h", spacing * 1e3),) + ((("depth", SIZE[2] * 1e3),) if deep else ())
-        return Run(name, "wave_mesh.nml", changes, Mesh("bar.geo", parameters, "bar.msh", 3 if deep else 2))
-    changes |= {"lattice.type": mesh, "lattice.spacing": spacing, "lattice.size": SIZE if deep else (*SIZE[:2], 0)}
+        parameters = (("h", spacing * 1e3),) + ((("depth", WIDTH * 1e3),) if deep else ())
+        return Run(name, "wave_mesh.nml", changes | {"load(2).directions": held}, Mesh("bar.geo", parameters, "bar.msh", 3 if deep else 2))
+    changes["lattice.spacing"] = spacing
+    if mesh == "hexagonal":
+        later = {"zone(2).centre": (spacing / 2, 0, 0), "load(2).begin": spacing / 2 / speed, "load(2).ramp": LENGTH / speed,
+                 "load(2).directions": moving, "load(3).directions": held}
+        return Run(name, "wave_hexagonal.nml", changes | later)
+    changes |= {"lattice.type": mesh, "lattice.size": (WIDTH, BAR, WIDTH if deep else 0), "load(2).directions": held}
     return Run(name, "wave_lattice.nml", changes)
 
 
@@ -72,37 +88,36 @@ def ramp(s):
     return s**3 * (10 - 15 * s + 6 * s * s), 30 * s * s * (1 - s) ** 2
 
 
-def against_exact(result, wave, speed, frame):
+def against_exact(result, series, wave, frame):
     """Relative L2 error and the shift [m] (positive: ahead) of the wave in one frame, with its time."""
-    data = result.exodus
-    y, time = data.points[:, 1], data.times[frame]
-    shape, slope = ramp((time - y / speed) * speed / LENGTH)
+    data, speed = result.exodus, wave_speed(SERIES[series][1], wave)
+    along, time = data.points[:, wave_axis(series)], data.times[frame]
+    shape, slope = ramp((speed * time - along) / LENGTH)
     exact, gradient = HEIGHT * shape, -HEIGHT * slope / LENGTH
-    difference = data.displacement(frame)[:, 1 if wave == "P" else 0] - exact
+    difference = data.displacement(frame)[:, moving_axis(series, wave)] - exact
     return numpy.linalg.norm(difference) / numpy.linalg.norm(exact), -(difference @ gradient) / (gradient @ gradient), time
 
 
-def speed_error(result, wave, speed):
+def speed_error(result, series, wave):
     """Measured wave speed over the exact one, minus 1, between the last frame and the one 10 mm before."""
-    frames = result.exodus.times
+    speed, frames = wave_speed(SERIES[series][1], wave), result.exodus.times
     before = int(abs(frames - (frames[-1] - FRAME / speed)).argmin())
-    (_, early, start), (_, late, end) = (against_exact(result, wave, speed, frame) for frame in (before, -1))
+    (_, early, start), (_, late, end) = (against_exact(result, series, wave, frame) for frame in (before, -1))
     return (late - early) / (speed * (end - start))
 
 
 def errors_of(case, series, wave):
-    speed = wave_speed(SERIES[series][1], wave)
-    return [against_exact(case.results[f"{series}-{wave}-{level}"], wave, speed, -1)[0] for level in refinements(series, case.mode)]
+    return [against_exact(case.results[f"{series}-{wave}-{level}"], series, wave, -1)[0] for level in refinements(series, case.mode)]
 
 
 def check(case):
-    for series, (_, kinematics, _, _) in SERIES.items():
+    for series in SERIES:
         for wave in "PS":
             errors = errors_of(case, series, wave)
             finest = case.results[f"{series}-{wave}-{refinements(series, case.mode)[-1]}"]
             case.figure(f"order_{wave}_{series}", math.log2(errors[-2] / errors[-1]))
             case.figure(f"error_{wave}_{series}", errors[-1])
-            case.figure(f"speed_{wave}_{series}", speed_error(finest, wave, wave_speed(kinematics, wave)))
+            case.figure(f"speed_{wave}_{series}", speed_error(finest, series, wave))
     for name in SPINS:
         for quantity, value in spin(case.results[f"spin-{name}"]).items():
             case.figure(f"{quantity}_{name}", value)
@@ -144,7 +159,7 @@ def pictures(case, folder):
     speed, data = wave_speed("plane_strain", "P"), result.exodus
     for frame in range(1, len(data.times)):
         axes[0].plot(data.points[:, 1] * 1e3, data.displacement(frame)[:, 1] * 1e9, ".", ms=2, color="#a3122f")
-        y = numpy.linspace(0, SIZE[1], 400)
+        y = numpy.linspace(0, BAR, 400)
         axes[0].plot(y * 1e3, HEIGHT * 1e9 * ramp((data.times[frame] * speed - y) / LENGTH)[0], "k", lw=0.8)
     axes[0].set(xlabel="y (mm)", ylabel="displacement (nm)", title="P wave, irregular mesh: particles and exact solution")
     for series in SERIES:

@@ -82,7 +82,7 @@ std::string file_description(const std::string& path) {
       why += std::string("\n  not ") + kind.name + ": " + error.what();
     }
   }
-  throw io::Error("cannot describe \"" + path + "\": it is none of the files that a run writes." +
+  throw io::Error("cannot describe \"" + path + "\": it is neither a checkpoint nor results." +
                   why);
 }
 

@@ -151,6 +151,7 @@ int32_t cleave_displacement_gradient(int32_t dimension, int64_t first, int64_t l
     const HostOperator g{&required(row_begin, "row_begin"), &required(neighbour, "neighbour"),
                          nullptr, &required(zeta, "zeta"), &required(volume, "volume")};
     required(u, "u");
+    check_dimension(dimension);
     std::fill(&required(H, "H") + kTensor * first, H + kTensor * last, 0.0);
     with_dimension(dimension, [&](auto d) { displacement_gradient<d>(g, u, first, last, H); });
   });

@@ -36,7 +36,7 @@ class StVenantKirchhoff {
   double shear_modulus() const { return mu_; }
   double wave_speed() const { return std::sqrt((lambda_ + 2 * mu_) / density_); }
 
-  // S = lambda tr(E) I + 2 mu E,  P = F S.                                       [CBM 13]
+  // S = lambda tr(E) I + 2 mu E,  P = F S.                                       [CBM 31]
   // Invalid in plane stress when 1 + 2 E_33 <= 0: the thickness would vanish.
   template <int D>
   Response<Mat<D>> respond(const Mat<D>& h, const History&) const {

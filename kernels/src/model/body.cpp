@@ -56,6 +56,7 @@ const ParameterSet& Body::group(std::string_view group_name) const {
 }
 
 void Body::make_fields() {
+  fields = {};
   fields.declare("core", fields_of("core"));
   fields.declare(formulation->name(), fields_of(formulation->name()));
   fields.declare(law->name, law->history);
@@ -86,7 +87,6 @@ void Body::make_fields() {
     }
   }
   work.resize(particles);
-  given_positions = {};
 }
 
 }  // namespace cleave

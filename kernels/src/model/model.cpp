@@ -67,6 +67,11 @@ void set_up(cleave_model& model) {
     body->formulation->setup(*body);
     body->events.reserve(static_cast<std::size_t>(std::min<std::int64_t>(body->particles, 65536)));
   }
+  // Not earlier: a refused set-up can be repaired and called again.
+  for (auto& body : model.bodies) {
+    body->given_positions = {};
+    body->given_simplices = {};
+  }
   model.phase = cleave_model::Phase::ready;
 }
 

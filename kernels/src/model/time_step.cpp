@@ -105,6 +105,15 @@ void advance_body(Body& body, double dt, int threads) {
   });
 }
 
+// A formulation names the particle; the step and the time are known here.
+void deform_at(Body& body, const Clock& clock, int threads) {
+  try {
+    body.formulation->deform(body, threads);
+  } catch (const Error& e) {
+    throw Error(e.status, text(e.what(), "; at step ", clock.step, ", time ", clock.time));
+  }
+}
+
 // The works see every force and velocity: if they are finite, so is the step. Only otherwise the
 // culprit is looked for.
 void check_finite(Body& body, const Clock& clock) {
@@ -155,7 +164,7 @@ void advance(cleave_model& model, double dt, double time_new) {
 void update(cleave_model& model) {
   for (auto& body : model.bodies) {
     body->formulation->break_bonds(*body, model.clock, model.threads);
-    body->formulation->deform(*body, model.threads);
+    deform_at(*body, model.clock, model.threads);
     body->formulation->forces(*body, model.threads);
     accelerate(*body, model.threads);
     add_half_work(*body, model.clock.dt, model.threads);

@@ -21,7 +21,8 @@ int main(void) {
   const int64_t simplices[] = {0, 1, 2, 0, 2, 3};
   const int64_t particle[] = {0, 1, 2, 3}; /* y of all four is prescribed */
   const int32_t direction[] = {1, 1, 1, 1};
-  const int32_t motion[] = {CLEAVE_MOTION_EXACT, CLEAVE_MOTION_EXACT, CLEAVE_MOTION_EXACT, CLEAVE_MOTION_EXACT};
+  const int32_t motion[] = {CLEAVE_MOTION_EXACT, CLEAVE_MOTION_EXACT, CLEAVE_MOTION_EXACT,
+                            CLEAVE_MOTION_EXACT};
   double u[] = {0, 0, 0, 0}, dt, time = 0, force[3];
   int64_t body;
   cleave_model* model = NULL;
@@ -37,18 +38,20 @@ int main(void) {
   spec.simplices = simplices;
   spec.name = "square";
 
-  if (failed(cleave_model_create(CLEAVE_ABI_VERSION, &model)) || failed(cleave_body_add(model, &spec, &body)) ||
+  if (failed(cleave_model_create(CLEAVE_ABI_VERSION, &model)) ||
+      failed(cleave_body_add(model, &spec, &body)) ||
       failed(cleave_body_set_real(model, body, "material", "rho", 1000)) ||
       failed(cleave_body_set_real(model, body, "material", "E", 1e9)) ||
       failed(cleave_body_set_real(model, body, "material", "nu", 0.25)) ||
-      failed(cleave_body_prescribe(model, body, 4, particle, direction, motion)) || failed(cleave_model_setup(model)) ||
-      failed(cleave_model_stable_step(model, &dt)) || failed(cleave_model_initialise(model, time)))
+      failed(cleave_body_prescribe(model, body, 4, particle, direction, motion)) ||
+      failed(cleave_model_setup(model)) || failed(cleave_model_stable_step(model, &dt)) ||
+      failed(cleave_model_initialise(model, time)))
     return 1;
   for (int step = 1; step <= 10; ++step) {
     time = step * dt;
     u[2] = u[3] = 1e-4 * step;
-    if (failed(cleave_body_motion(model, body, 4, u, NULL)) || failed(cleave_model_advance(model, dt, time)) ||
-        failed(cleave_model_update(model)))
+    if (failed(cleave_body_motion(model, body, 4, u, NULL)) ||
+        failed(cleave_model_advance(model, dt, time)) || failed(cleave_model_update(model)))
       return 1;
   }
   if (failed(cleave_body_reaction(model, body, 2, &particle[2], force))) return 1;

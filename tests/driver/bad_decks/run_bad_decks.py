@@ -1,4 +1,4 @@
-"""Every deck of this folder has one mistake, and says in its first lines what must be answered:
+"""Every deck of this folder has one mistake, and says in its first lines what must be said:
 
     ! expect: text that must stand in the answer (several lines: all of them, in this order)
 

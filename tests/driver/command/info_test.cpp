@@ -53,7 +53,7 @@ TEST(Info, RefusesOtherFiles) {
     FAIL() << "a text was described";
   } catch (const io::Error& error) {
     expect_said(error.what(),
-                {"none of the files that a run writes", "not a checkpoint", "not results"});
+                {"neither a checkpoint nor results", "not a checkpoint", "not results"});
   }
 }
 

@@ -64,7 +64,7 @@ const Mistake kMistakes[] = {
     {"two_equals", "&g i == 1 /", "1:7", {"no value can begin with \"=\""}},
     {"unquoted_text", "&g units = SI /", "1:12", {"\"SI\" is neither", "'SI'"}},
     {"unquoted_path", "&g\n\tfile = mesh/plate.msh\n/", "2:9", {"'mesh/plate.msh'"}},
-    {"unquoted_in_list", "&g v = 1, two, 3 /", "1:11", {"\"two\"", "'=' after the name"}},
+    {"unquoted_in_list", "&g v = 1, seven, 3 /", "1:11", {"\"seven\"", "'=' after the name"}},
     {"number_with_unit", "&g l = 1.5mm /", "1:8", {"\"1.5mm\" is not a number", "1.5e3"}},
     {"number_two_points", "&g l = 1.2.3 /", "1:8", {"\"1.2.3\" is not a number"}},
     {"number_sign_only", "&g l = - 3 /", "1:8", {"\"-\" is not a number"}},
@@ -123,12 +123,12 @@ INSTANTIATE_TEST_SUITE_P(Namelist, NamelistMistake, testing::ValuesIn(kMistakes)
                          [](const auto& instance) { return instance.param.name; });
 
 TEST(NamelistErrors, ShapeOfAMessage) {
-  EXPECT_EQ(
-      message("&g\n\ta = 1,\tb = two ! \xC3\xA9\n/"),
-      "deck.nml:2:14: \"two\" is neither a number nor a logical: put quotes around text, 'two', or "
-      "'=' after the name of a key\n"
-      "   \ta = 1,\tb = two ! \xC3\xA9\n"
-      "   \t      \t    ^");
+  EXPECT_EQ(message("&g\n\ta = 1,\tb = alpha ! \xC3\xA9\n/"),
+            "deck.nml:2:13: \"alpha\" is neither a number nor a logical: put quotes around text, "
+            "'alpha', or "
+            "'=' after the name of a key\n"
+            "   \ta = 1,\tb = alpha ! \xC3\xA9\n"
+            "   \t      \t    ^");
 }
 
 TEST(NamelistErrors, CaretStandsUnderItsCharacterAfterUtf8) {

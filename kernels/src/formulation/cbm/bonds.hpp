@@ -47,8 +47,9 @@ void fill_reverse(std::int64_t particles, const Offset* row_begin, const Index* 
 }
 
 // Row i from its live simplices, always summed in ascending order of simplices, so that a rebuilt
-// row has the bits of one built at once:  Omega_i = sum Omega_L/n,  zeta_ip = sum (Omega_L/n)
-// g_p^L.   [CBM 1, 4-9] alive: nullptr: all.
+// row has the bits of one built at once:                                            [CBM 1, 4-9]
+//   Omega_i = sum_L Omega_L/n,   zeta_ip = sum_L (Omega_L/n) g_p^L
+// [in] alive (m): 0 deleted; nullptr: all live
 template <int D, class Index, class Offset>
 void rebuild_row(const double* X, const Index* simplices, int stride, const std::int32_t* alive,
                  const Incidence& incidence, const Offset* row_begin, const Index* neighbour,

@@ -16,8 +16,7 @@ double elongation(const Body& body, const Network& network, std::int32_t bond) {
   return (std::sqrt(dot(d, d)) - network.length[bond]) / network.length[bond];
 }
 
-// Which particles may not lose a bond between two of them: 1 exempt zone, 2 prescribed in every
-// direction.
+// Which particles lose no bond between two of them: 1 exempt zone, 2 prescribed in every direction.
 std::vector<char> protection(const Body& body) {
   std::vector<char> directions(static_cast<std::size_t>(body.particles), 0);
   for (const auto& dof : body.prescribed) {
@@ -177,8 +176,7 @@ void Fracture::add_release(const Body& body, const Network& network,
   if (stabilisation.active()) add_simplex_release<D>(body, network, stabilisation, dt, sign);
 }
 
-// The same for the energy that the stabilisation keeps on simplices, booked on their touched
-// corners.
+// The same for the energy that the stabilisation keeps on simplices, booked on touched corners.
 template <int D>
 void Fracture::add_simplex_release(const Body& body, const Network& network,
                                    const Stabilisation& stabilisation, double dt, double sign) {
@@ -322,6 +320,7 @@ void Fracture::precrack(Body& body, Network& network, std::span<const std::int64
   for (std::size_t k = 0; k + 1 < pairs.size(); k += 2) {
     const std::int32_t bond = network.find_bond(pairs[k], pairs[k + 1]);
     if (bond < 0) {
+      reset();  // a refused list changes nothing
       throw Error(CLEAVE_BAD_ARGUMENT,
                   text(body.label(), ": particles ", pairs[k], " and ", pairs[k + 1],
                        " are not bonded; a pre-crack takes the ends of bonds"));

@@ -24,7 +24,6 @@ void Network::build(Body& body) {
     }
     alive[s] = 1;
   }
-  body.given_simplices = {};
   check_simplices(body);
   make_rows(body);
 

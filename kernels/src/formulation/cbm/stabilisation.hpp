@@ -25,16 +25,14 @@ class Stabilisation {
   // Factor on the stored energy and stress of the particles.
   double particle_share() const { return form_ == StabilisationForm::blend ? 1 - alpha_ : 1.0; }
 
-  // The stress that enters the bond force; valid until the next call. Fills S_L of every live
-  // simplex.
+  // The stress that enters the bond force; valid until the next call. Fills S_L of live simplices.
   template <int D>
   const double* bond_stress(const Body& body, const Network& network, int threads);
   // f_a -= S_L g_a over the live simplices of first <= a < last.
   template <int D>
   void add_force(const Network& network, std::int64_t first, std::int64_t last, double* f) const;
 
-  // Energy of one simplex for gradients h of its corners and of itself [J], and its stress Omega_L
-  // S [J].
+  // Energy of one simplex [J] for its own H and the mean of its corners', and S_L [J] if asked for.
   template <int D>
   double simplex_energy(const Body& body, double volume, const Mat<D>& simplex_h,
                         const Mat<D>& mean_h, Mat<D>* stress) const;

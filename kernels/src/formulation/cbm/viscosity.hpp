@@ -1,9 +1,9 @@
 // Artificial viscosity of bonds in its three forms. All act on the rate of the bond
-//   rate_ip = v_ip . x_ip / (|x_ip|^2 + 0.01 l^2),  positive when it extends               [CBM 22]
-// with the pressure beta l rho0 c0 rate [CBM 21], and pull extending ends together.
+//   rate_ip = v_ip . x_ip / (|x_ip|^2 + 0.01 l^2),  positive when it extends             [CBM 22]
+// through the pressure beta l rho0 c0 rate [CBM 21], which pulls separating ends together.
 //
-// Published with the opposite sign of the elastic force (23); corrected here. It acts across every
-// bond that still carries a simplex, never across an open crack.
+// Published with the opposite sign of the elastic force [CBM 23]; corrected here. It acts across
+// every bond that still carries a simplex, never across an open crack.
 #pragma once
 
 #include <cmath>
@@ -28,8 +28,11 @@ struct BondRate {
 };
 
 // Force on i: + pressure (w_ip J_i + w_pi J_p) x_ip / |x_ip|^2, J clipped at 0. Central, so both
-// momenta are exact; its power is never positive; needs no gradient of the other end. [in]  x, v
-// (3,n)   [in] ratio (n) det F   [in] w (h) bond weights [m3]   [in,out] f (3,n)
+// momenta are exact; its power is never positive; needs no gradient of the other end.
+// [in]     x, v   (3,n)  current position [m], velocity [m s-1]
+// [in]     ratio  (n)    det F [1]
+// [in]     w      (h)    bond weights [m3]
+// [in,out] f      (3,n)  force [N], added to
 template <int D, class Index, class Offset>
 void viscous_force_frozen(const GradientOperator<Index, Offset>& g, const BondRate<Index>& rate,
                           const double* w, const double* x, const double* v, const double* ratio,
@@ -53,10 +56,11 @@ void viscous_force_frozen(const GradientOperator<Index, Offset>& g, const BondRa
   }
 }
 
-// Force on i: + pressure g_ip with g_ip = J_i F_i^-T zeta_ip - J_p F_p^-T zeta_pi ("paper", [CBM
-// 23] with the right sign), or its clipped projection max(0, g_ip . n) n on the bond direction
-// ("central"), for which the power of every pair is never positive. An end with J <= 0 does not
-// contribute. [in]  h (9,n) displacement gradient   [in] ratio (n) det F
+// Force on i: + pressure g_ip with g_ip = J_i F_i^-T zeta_ip - J_p F_p^-T zeta_pi: form "paper",
+// [CBM 23] with the right sign. Form "central" takes its clipped projection max(0, g_ip . n) n on
+// the bond direction, for which the power of every pair is never positive. An end with J <= 0
+// does not contribute.
+// [in]     h      (9,n)  displacement gradient [1]; the rest as above
 template <int D, bool Central, class Index, class Offset>
 void viscous_force_deformed(const GradientOperator<Index, Offset>& g, const BondRate<Index>& rate,
                             const double* x, const double* v, const double* h, const double* ratio,

@@ -1,0 +1,102 @@
+"""Runs of the program that only a process can show: signals, exit codes, what is printed."""
+
+import filecmp
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+
+PROGRAM = sys.argv[1]
+
+PLATE = """
+&lattice type='hexagonal' spacing=1 size=60,40,0 /
+&body name='plate' kinematics='plane_stress' material='unit' /
+&material name='unit' law='svk' E=1 nu=0.25 rho=1 /
+&fracture critical_strain=0.05 /
+&precrack points=0,20,15,20 /
+&load name='low' kind='displacement' set='ymin' directions='xy' /
+&load name='top' kind='velocity' set='ymax' directions='y' value=0.02 /
+&output every_steps=300 /
+&history every_steps=10 /
+"""
+FILES = ["case.exo", "case.history.nc", "case.history.csv", "case.events.nc"]
+
+
+def write_deck(directory, keys):
+    directory.mkdir(parents=True)
+    text = f"&run units='other' title='a plate' name='case' {keys} /\n{PLATE}"
+    (directory / "case.nml").write_text(text)
+
+
+def cleave(directory, *words):
+    return subprocess.run([PROGRAM, *words], cwd=directory, capture_output=True, text=True)
+
+
+def check(condition, what, shown=""):
+    if not condition:
+        sys.exit(f"FAILED: {what}\n{shown}")
+
+
+def stopped_and_continued(root):
+    """SIGTERM in the middle: exit code 3, a checkpoint, and after a restart the same bytes."""
+    write_deck(root / "whole", "t_end=1500")
+    done = cleave(root / "whole", "--quiet", "case.nml")
+    check(done.returncode == 0 and done.stdout == "", "quiet run", done.stdout + done.stderr)
+    write_deck(root / "cut", "t_end=1500 status_every=0.02")
+    run = subprocess.Popen([PROGRAM, "case.nml"], cwd=root / "cut", stdout=subprocess.PIPE, text=True)
+    for line in run.stdout:  # until it steps
+        if line.startswith("step "):
+            break
+    run.send_signal(signal.SIGTERM)
+    rest = run.stdout.read()
+    check(run.wait() == 3, f"exit code 3 after SIGTERM, not {run.returncode}", rest)
+    check("stopped on request after step" in rest, "what a stopped run says", rest)
+    check("cleave restart case." in rest, "how to continue", rest)
+    again = cleave(root / "cut", "restart", ".")
+    check(again.returncode == 0, "restart of a directory", again.stdout + again.stderr)
+    check("continued after step" in again.stdout, "banner of a restart", again.stdout)
+    for name in FILES:
+        same = filecmp.cmp(root / "whole" / name, root / "cut" / name, shallow=False)
+        check(same, f"{name} of the stopped run equals that of the whole run")
+
+
+def moved_directory(root):
+    """A run may be moved as a whole, and its mesh is not needed again."""
+    write_deck(root / "here", "t_end=20 directory='out'")
+    check(cleave(root / "here", "--quiet", "case.nml").returncode == 0, "run into a directory")
+    shutil.move(root / "here" / "out", root / "there")
+    (root / "here" / "case.nml").unlink()
+    done = cleave(root, "restart", "there")
+    check(done.returncode == 0, "restart of a moved directory", done.stdout + done.stderr)
+
+
+def failed(root):
+    write_deck(root / "bad", "t_end=4000 time_step=4 step_check='warn'")
+    done = cleave(root / "bad", "case.nml")
+    check(done.returncode == 1, f"exit code 1, not {done.returncode}", done.stdout + done.stderr)
+    check("warning: time_step = 4 is above the stable step" in done.stdout, "warning", done.stdout)
+    check("the run failed in step" in done.stderr, "what a failed run says", done.stderr)
+    check((root / "bad" / "case.lastgood.checkpoint.nc").exists(), "last good state")
+
+
+def told(root):
+    """What a run and a check print."""
+    write_deck(root / "told", "t_end=50")
+    done = cleave(root / "told", "case.nml")
+    for part in ["(a plate)", "1 body,", " particles,", "method cbm: ", "(stable ", "100%  t 50",
+                 "broken", "M/s", "ETA", "done: ", "0 warnings", "case.exo"]:
+        check(part in done.stdout, f"a run says {part!r}", done.stdout)
+    check("\r" not in done.stdout, "no carriage returns without a terminal", done.stdout)
+    write_deck(root / "checked", "t_end=50")
+    done = cleave(root / "checked", "check", "case.nml")
+    for part in ["set 'ymax': ", "memory ", "stable step ", " steps to t = 50", "estimated ",
+                 "the deck is good"]:
+        check(part in done.stdout, f"a check says {part!r}", done.stdout)
+    check([p.name for p in (root / "checked").iterdir()] == ["case.nml"], "a check writes no file")
+
+
+with tempfile.TemporaryDirectory() as temporary:
+    for test in (stopped_and_continued, moved_directory, failed, told):
+        test(pathlib.Path(temporary) / test.__name__)
