@@ -220,7 +220,8 @@ void write_archive(const std::string& path, const Archive& archive) {
   verify_archive(file.temporary_path());
   // The checksum of the header was made from the file, so the header itself is compared, too.
   if (!same_header(read_archive_header(file.temporary_path()), header)) {
-    throw Error(path + ": was not written as it should be: its header reads back differently; write to "
+    throw Error(path +
+                ": was not written as it should be: its header reads back differently; write to "
                 "another disk and have this one checked");
   }
   file.commit();

@@ -13,8 +13,8 @@ static const int64_t kSimplices[3 * SIMPLICES] = {0, 1, 2, 0, 2, 3};
 static const double kProperties[3] = {1000.0, 2.0e9, 0.25};
 
 /* The line where a check failed is the exit status (below 256). */
-#define REQUIRE(condition) \
-  do {                     \
+#define REQUIRE(condition)                      \
+  do {                                          \
     if (!(condition)) exit(__LINE__ % 255 + 1); \
   } while (0)
 #define OK(call) REQUIRE((call) == CLEAVE_OK)
@@ -33,7 +33,7 @@ static double expected_energy(void) {
   return 0.5 * (0.8e9 + 2 * 0.8e9) * e11 * e11;
 }
 
-static void array_calls(double *force) {
+static void array_calls(double* force) {
   int64_t row_begin[PARTICLES + 1], neighbour[HALF_BONDS], reverse[HALF_BONDS];
   double zeta[3 * HALF_BONDS], volume[PARTICLES];
   double u[3 * PARTICLES] = {0}, H[9 * PARTICLES], P[9 * PARTICLES], energy[PARTICLES];
@@ -62,7 +62,7 @@ static void array_calls(double *force) {
   OK(cleave_bond_force(2, 0, PARTICLES, row_begin, neighbour, reverse, zeta, P, force));
 }
 
-static void check_force(const double *force) {
+static void check_force(const double* force) {
   /* Uniform stress on a unit square: each corner gets half of a side's P11 in x, pulling inwards;
    * in y half of P22 = S22 = lambda E11. */
   const double p11 = expected_p11(), p22 = 0.8e9 * (kStretch + 0.5 * kStretch * kStretch);
@@ -74,8 +74,8 @@ static void check_force(const double *force) {
   }
 }
 
-static void model_run(const double *expected_force) {
-  cleave_model *model = NULL;
+static void model_run(const double* expected_force) {
+  cleave_model* model = NULL;
   cleave_body_spec spec;
   cleave_energies energies;
   cleave_counts counts;

@@ -14,7 +14,8 @@ TEST(Messages, AreCutTerminatedAndTellTheirFullLength) {
   EXPECT_EQ(full.rfind("cleave_table_find: ", 0), 0u) << full;  // which call
   EXPECT_NE(full.find("'rubber'"), std::string::npos) << full;  // what was given
   EXPECT_NE(full.find("svk"), std::string::npos) << full;       // what is known
-  for (const std::size_t capacity : {std::size_t{1}, std::size_t{7}, full.size(), full.size() + 1}) {
+  for (const std::size_t capacity :
+       {std::size_t{1}, std::size_t{7}, full.size(), full.size() + 1}) {
     std::vector<char> text(capacity + 4, '#');
     int64_t length = 0;
     ok(cleave_last_message(text.data(), static_cast<int64_t>(capacity), &length));
@@ -64,7 +65,8 @@ TEST(Messages, BelongToTheThreadThatMadeTheMistake) {
 
 TEST(Messages, StatusTextsComeFromTheTable) {
   EXPECT_STREQ(cleave_status_text(CLEAVE_OK), "no error");
-  EXPECT_STREQ(cleave_status_text(CLEAVE_BAD_RANGE), "an index range does not lie inside the array");
+  EXPECT_STREQ(cleave_status_text(CLEAVE_BAD_RANGE),
+               "an index range does not lie inside the array");
   EXPECT_STREQ(cleave_status_text(-5), "unknown status");
   EXPECT_STREQ(cleave_version(), CLEAVE_VERSION);
 }

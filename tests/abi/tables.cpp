@@ -10,8 +10,8 @@ namespace cleave::test {
 namespace {
 
 TEST(Tables, EntriesAreCompleteAndFoundByTheirName) {
-  for (const int32_t table : {CLEAVE_TABLE_STATUS, CLEAVE_TABLE_MATERIAL, CLEAVE_TABLE_FORMULATION,
-                              CLEAVE_TABLE_GROUP}) {
+  for (const int32_t table :
+       {CLEAVE_TABLE_STATUS, CLEAVE_TABLE_MATERIAL, CLEAVE_TABLE_FORMULATION, CLEAVE_TABLE_GROUP}) {
     int64_t count = 0;
     ok(cleave_table_count(table, &count));
     ASSERT_GT(count, 0);

@@ -127,7 +127,7 @@ def picture(path, out, field="damage", step="last", deform="auto", title=""):
     if factor != 1:
         words.append(f"displacements × {factor:g}")
     axes.set_title("   ".join(words), color=INK, fontsize=12, loc="left")
-    figure.savefig(out, dpi=160)
+    figure.savefig(out, dpi=160, bbox_inches="tight", pad_inches=0.12)
     plt.close(figure)
 
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <new>
+#include <stdexcept>
 #include <string>
 
 #include "core/error.hpp"
@@ -21,6 +22,9 @@ std::int32_t guarded(const char* function, Body&& body) noexcept {
     set_last_message(function, e.what());
     return e.status;
   } catch (const std::bad_alloc&) {
+    set_last_message(function, "not enough memory");
+    return CLEAVE_OUT_OF_MEMORY;
+  } catch (const std::length_error&) {  // beyond what any array can hold
     set_last_message(function, "not enough memory");
     return CLEAVE_OUT_OF_MEMORY;
   } catch (const std::exception& e) {

@@ -1,4 +1,6 @@
 // A run that fails: what is said, and the last good state.
+#include <cmath>
+
 #include "io/archive.hpp"
 #include "support.hpp"
 

@@ -19,7 +19,7 @@ const std::string kTorn =
     "&load name='low' kind='displacement' set='ymin' directions='xy' /\n"
     "&load name='top' kind='velocity' set='ymax' directions='y' value=0.02 curve='table' "
     "times=0,10,30,60 factors=0,1,1,-1 /\n"
-    "&load name='right' kind='pressure' set='xmax' value=1e-3 /\n"
+    "&zone name='side' lower=15.2,0 /\n&load name='right' kind='pressure' set='side' value=1e-3 /\n"
     "&load name='pull' kind='force' set='ymax' directions='x' value=1e-3 curve='smooth' ramp=20 /\n"
     "&probe name='tip' field='cauchy_stress' point=5,6 /\n"
     "&output every_time=7 /\n&history every_steps=3 /\n&checkpoint every_steps=50 keep=20 /\n";
@@ -38,7 +38,7 @@ std::int64_t last_step(const fs::path& directory) {
 }
 
 std::int64_t events_at(const std::string& checkpoint) {
-  const io::Archive archive = io::read_archive_header(checkpoint);
+  const io::Archive archive = io::read_archive(checkpoint);
   return std::get<std::int64_t>(*archive.find_attribute("event_records"));
 }
 

@@ -71,7 +71,7 @@ template <class Index>
 Incidence make_incidence(std::int64_t particles, std::int64_t count, const Index* simplices,
                          int corners, int stride) {
   Incidence in;
-  in.begin.assign(static_cast<std::size_t>(particles + 1), 0);
+  in.begin.assign(static_cast<std::size_t>(particles) + 1, 0);
   for (std::int64_t s = 0; s < count; ++s) {
     for (int a = 0; a < corners; ++a) {
       const auto i = static_cast<std::int64_t>(simplices[stride * s + a]);
