@@ -303,10 +303,13 @@ Mesh read(const std::string& path, std::size_t file_size) {
 Mesh read_exodus_mesh(const std::string& path, NetcdfForm form, std::size_t file_size) {
   if (form == NetcdfForm::classic) {
     read_netcdf_layout(path);  // refuses a truncated file
-  } else if (!survives([&] { read(path, file_size); })) {
-    throw Error(
-        path + ": a netCDF-4 file so damaged that the HDF5 library cannot read it; write it again");
+    return read(path, file_size);
   }
+  const Trial trial = try_in_child([&] { read(path, file_size); });
+  if (trial.crashed)
+    throw Error(path +
+                ": a netCDF-4 file so damaged that the HDF5 library fails on it; write it again");
+  if (!trial.error.empty()) throw Error(trial.error);
   return read(path, file_size);
 }
 

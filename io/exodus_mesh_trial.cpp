@@ -6,8 +6,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <csignal>
+#include <exception>
 
 namespace cleave::io {
 namespace {
@@ -24,23 +26,54 @@ void become_silent() {
   dup2(nowhere, STDERR_FILENO);
 }
 
+void write_all(int pipe, const std::string& text) {
+  for (std::size_t done = 0; done < text.size();) {
+    const ssize_t written = write(pipe, text.data() + done, text.size() - done);
+    if (written < 0 && errno != EINTR) return;
+    if (written > 0) done += static_cast<std::size_t>(written);
+  }
+}
+
+std::string read_all(int pipe) {
+  std::string text;
+  std::array<char, 1024> part{};
+  for (;;) {
+    const ssize_t got = read(pipe, part.data(), part.size());
+    if (got == 0 || (got < 0 && errno != EINTR)) return text;
+    if (got > 0) text.append(part.data(), static_cast<std::size_t>(got));
+  }
+}
+
+[[noreturn]] void run_child(const std::function<void()>& action, int pipe) {
+  become_silent();
+  try {
+    action();
+  } catch (const std::exception& error) {
+    write_all(pipe, error.what());
+  }
+  _exit(kFinished);
+}
+
 }  // namespace
 
-bool survives(const std::function<void()>& action) {
+Trial try_in_child(const std::function<void()>& action) {
+  std::array<int, 2> ends{};
+  if (pipe(ends.data()) != 0) return {};
   const pid_t child = fork();
-  if (child < 0) return true;
-  if (child == 0) {
-    become_silent();
-    try {
-      action();
-    } catch (...) {
-    }
-    _exit(kFinished);
+  if (child == 0) run_child(action, ends[1]);
+  close(ends[1]);
+  Trial trial;
+  if (child > 0) {
+    trial.error = read_all(ends[0]);
+    int status = 0;
+    pid_t ended = 0;
+    do {
+      ended = waitpid(child, &status, 0);
+    } while (ended < 0 && errno == EINTR);
+    trial.crashed = ended == child && !(WIFEXITED(status) && WEXITSTATUS(status) == kFinished);
   }
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0)
-    if (errno != EINTR) return true;
-  return WIFEXITED(status) && WEXITSTATUS(status) == kFinished;
+  close(ends[0]);
+  return trial;
 }
 
 }  // namespace cleave::io

@@ -2,12 +2,18 @@
 #pragma once
 
 #include <functional>
+#include <string>
 
 namespace cleave::io {
 
-// Runs `action` in a child process and tells whether it came to an end there, be it with an
-// exception. For the HDF5 library, which crashes on some damaged files: after the trial the caller can
-// do the same itself. True if no child can be started.
-bool survives(const std::function<void()>& action);
+struct Trial {
+  bool crashed = false;
+  std::string error;  // of the exception, if `action` threw one
+};
+
+// Runs `action` in a child process first. For the HDF5 library, which crashes on some damaged files (and
+// leaks memory on others): only if the trial went well should the caller do the same itself. If no
+// child can be started, the trial counts as gone well.
+Trial try_in_child(const std::function<void()>& action);
 
 }  // namespace cleave::io

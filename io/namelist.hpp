@@ -8,7 +8,7 @@
 // namelist_section.hpp.
 //
 // Choices where the text alone is not clear, or where gfortran (12) is surprising:
-// - A word at a value's place is a name if '=', '%' or subscripts follow (`t = 1` is an assignment to t).
+// - A word at a value's place is a name if '=', '%' or subscripts follow (`t = 1` assigns to t).
 //   Otherwise T..., F..., .t..., .f... are logicals, inf, infinity and nan are reals, anything else
 //   is an error that asks for quotes.
 // - `3* 1.5` is three nulls and 1.5. An integer too large for 64 bits becomes a real.

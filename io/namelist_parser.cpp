@@ -22,7 +22,7 @@ std::string written(const std::vector<Subscript>& subscripts) {
     if (!s.is_range) continue;
     text += ":";
     if (s.has_last) text += std::to_string(s.last);
-    if (s.stride != 1) text += ":" + std::to_string(s.stride);
+    if (s.stride != 1) text.append(":").append(std::to_string(s.stride));
   }
   return text.empty() ? text : text + ")";
 }
@@ -266,15 +266,14 @@ void Parser::read_values(std::vector<Value>& values) {
 }
 
 void Parser::push_empty(std::vector<Value>& values, bool hidden) const {
-  Value null;
+  Value& null = values.emplace_back();
   null.place = at_.place();
   null.hidden = hidden;
-  values.push_back(std::move(null));
 }
 
-// Two kinds of words change gfortran's rules: inf and nan take the line ends that follow with them; after
-// a logical of two letters or more without a point, a comment leaves what follows to be the next value,
-// be it only a blank.
+// Two kinds of words change gfortran's rules: inf and nan take the line ends that follow with them;
+// after a logical of two letters or more without a point, a comment leaves what follows to be the
+// next value, be it only a blank.
 Parser::Between Parser::read_separator_after_word(std::vector<Value>& values) {
   const Value& last = values.back();
   const bool real = std::holds_alternative<double>(last.scalar);

@@ -112,22 +112,28 @@ struct RecordTable::Impl {
   std::int64_t csv_bytes = 0;             // length of the CSV with them
   std::vector<double> waiting;            // records not in the files, one after the other
   std::int64_t flush_at = kFlushRecords;  // waiting records that start a flush
+  bool files_are_whole = true;            // false: a failed flush could not be taken back yet
 
   std::int64_t waiting_records() const { return std::ssize(waiting) / std::ssize(columns); }
 
   void flush();
   void write_waiting();
-  void restore_files() noexcept;
+  void restore_files();
   void write_csv();
 };
 
 void RecordTable::Impl::flush() {
   if (waiting.empty()) return;
+  if (!files_are_whole) restore_files();
   try {
     write_waiting();
-  } catch (...) {
-    restore_files();
+  } catch (const Error&) {
+    files_are_whole = false;
     flush_at = waiting_records() + kFlushRecords;  // not again at every record
+    try {
+      restore_files();
+    } catch (const Error&) {  // the first error is the one to report
+    }
     throw;
   }
   flushed += waiting_records();
@@ -147,15 +153,10 @@ void RecordTable::Impl::write_waiting() {
 }
 
 // After a failed flush: both files back to the records they had.
-void RecordTable::Impl::restore_files() noexcept {
-  try {
-    truncate_records(path, flushed);
-  } catch (const Error&) {  // the first error is the one to report
-  }
-  try {
-    if (!csv_path.empty()) set_file_size(csv_path, csv_bytes);
-  } catch (const Error&) {
-  }
+void RecordTable::Impl::restore_files() {
+  truncate_records(path, flushed);
+  if (!csv_path.empty()) set_file_size(csv_path, csv_bytes);
+  files_are_whole = true;
 }
 
 // The whole CSV from the netCDF file, in blocks.

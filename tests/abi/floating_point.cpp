@@ -50,8 +50,8 @@ TEST_P(FloatingPoint, NoTrapInAFractureRun) {
       for (std::size_t b = 0; b < ends.size() / 2; ++b) {
         if (ends[2 * b] == 0) ok(cleave_body_precrack(model, 0, 1, &ends[2 * b]));
       }
-      auto v = random_vectors(mesh, 4.0, 5);
-      for (std::size_t i = 0; i < v.size() / 3; ++i) v[3 * i] += 1000 * mesh.X[3 * i];
+      auto v = random_vectors(mesh, 8.0, 5);
+      for (std::size_t i = 0; i < v.size() / 3; ++i) v[3 * i] += 3000 * mesh.X[3 * i];
       model.put("velocity", v);
       model.initialise();
       const double dt = 0.4 * model.stable_step();

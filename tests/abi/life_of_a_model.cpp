@@ -279,8 +279,8 @@ TEST(Life, TwoModelsDoNotKnowOfEachOther) {
   const auto build = [](Model& model, const Case& c, const SimplexMesh& mesh) {
     model.add(c, mesh, {{"fracture", "critical_strain", 0.02}});
     model.setup();
-    auto v = random_vectors(mesh, 4.0, 5);
-    for (std::size_t i = 0; i < v.size() / 3; ++i) v[3 * i] += 1000 * mesh.X[3 * i];
+    auto v = random_vectors(mesh, 8.0, 5);
+    for (std::size_t i = 0; i < v.size() / 3; ++i) v[3 * i] += 3000 * mesh.X[3 * i];
     model.put("velocity", v);
     model.initialise();
   };

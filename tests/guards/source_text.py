@@ -16,7 +16,7 @@ SEED = "use a generator with a written seed, so that a failure can be repeated"
 RULES = [
     (r"std::(cout|cerr|clog|print|println)\b|\b(printf|puts|putchar|perror)\s*\(|\bfprintf\s*\(", SOURCE, QUIET, False,
      "libraries and tests do not print; return a status or throw, assert instead of showing"),
-    (r"\b(std::)?(exit|abort|_Exit|quick_exit|terminate)\s*\(|\bassert\s*\(|\bsignal\s*\(", SOURCE, LIBRARIES, False,
+    (r"\b(std::)?(exit|abort|_Exit|quick_exit|terminate)\s*\(|\bassert\s*\(|\bsignal\s*\((?!\w+, SIG_DFL)", SOURCE, LIBRARIES, False,
      "a library never ends its host; return a status or throw"),
     (r"\bstd::random_device\b|\bs?rand\s*\(|std::(mt19937(_64)?|minstd_rand0?|default_random_engine)\s+\w+\s*(;|\{\s*\})",
      SOURCE, (), False, "seed the random engine with a written number, so that a failure can be repeated"),

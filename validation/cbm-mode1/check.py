@@ -51,7 +51,7 @@ def check(case):
         ends[name] = curve[-1]
         case.figure(f"particles_{name}", len(result.exodus.points))
         case.figure(f"dissipated_{name}", curve[-1])
-        case.figure(f"backslide_{name}", -min(0.0, numpy.diff(curve).min()))
+        case.figure(f"backslide_{name}", max(0.0, -numpy.diff(curve).min()))
         case.figure(f"closure_{name}", closure(result.history))
         case.figure(f"offset_{name}", abs(events["y"] - MIDDLE).max() / HALF_STRIP)
         case.figure(f"arrival_{name}", cracks.arrival_time(events["x"], events["time"], WIDTH, 1e-3 / part) * 1e6)

@@ -8,6 +8,7 @@
 #include "deck/number_text.hpp"
 #include "io/archive.hpp"
 #include "io/error.hpp"
+#include "io/record_summary.hpp"
 #include "io/results.hpp"
 
 namespace cleave::driver {
@@ -61,6 +62,19 @@ std::string describe_results(const std::string& path) {
          variables_line("of elements", s.element) + variables_line("global", s.global);
 }
 
+std::string describe_records(const std::string& path) {
+  const io::RecordSummary s = io::summarise_records(path);
+  TextTable columns{{"column", "units", "first", "last", "description"}, {}};
+  for (std::size_t c = 0; c < s.columns.size(); ++c) {
+    const auto value = [&](const std::vector<double>& record) {
+      return record.empty() ? std::string("-") : short_text(record[c]);
+    };
+    columns.rows.push_back({s.columns[c].name, in_brackets(s.columns[c].units), value(s.first),
+                            value(s.last), s.columns[c].description});
+  }
+  return path + ": table of " + std::to_string(s.records) + " records\n\n" + to_text(columns);
+}
+
 struct FileKind {
   const char* name;
   std::string (*describe)(const std::string& path);
@@ -69,6 +83,7 @@ struct FileKind {
 constexpr std::array kKinds = {
     FileKind{"a checkpoint", describe_archive},
     FileKind{"results", describe_results},
+    FileKind{"a history or event table", describe_records},
 };
 
 }  // namespace
@@ -82,7 +97,7 @@ std::string file_description(const std::string& path) {
       why += std::string("\n  not ") + kind.name + ": " + error.what();
     }
   }
-  throw io::Error("cannot describe \"" + path + "\": it is neither a checkpoint nor results." +
+  throw io::Error("cannot describe \"" + path + "\": it is none of the files that a run writes." +
                   why);
 }
 

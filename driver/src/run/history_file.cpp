@@ -176,12 +176,11 @@ void HistoryFile::reopen(const FileNames& names, const Scene& scene, Index recor
   table_ = io::RecordTable::reopen(names.history(), csv_path(names, scene), columns_, records);
 }
 
-void HistoryFile::write(Scene& scene, Index step, double time) {
+void HistoryFile::write(Scene& scene, Index step, double time, const cleave_energies& energies) {
   Model& model = scene.model();
   record_.clear();
   record_.push_back(static_cast<double>(step));
   record_.push_back(time);
-  const cleave_energies energies = model.energies();
   for (const EnergyColumn& energy : kEnergies) record_.push_back(energies.*energy.value);
   const cleave_counts counts = model.total_counts();
   for (const CountColumn& count : kCounts) {

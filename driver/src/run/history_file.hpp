@@ -22,7 +22,7 @@ class HistoryFile {
 
   void create(const FileNames& names, const Scene& scene, const Clock& clock);
   void reopen(const FileNames& names, const Scene& scene, std::int64_t records);
-  void write(Scene& scene, std::int64_t step, double time);
+  void write(Scene& scene, std::int64_t step, double time, const cleave_energies& energies);
   void flush() { table_->flush(); }
   std::int64_t records() const { return table_->records(); }
 

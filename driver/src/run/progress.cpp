@@ -119,7 +119,8 @@ double Progress::seconds() const {
   return std::chrono::duration<double>(WallClock::now() - begin_).count();
 }
 
-void Progress::status(const Model& model, const Clock& clock, std::int64_t step) {
+void Progress::status(const Model& model, const Clock& clock, std::int64_t step,
+                      const cleave_energies& e) {
   const auto now = WallClock::now();
   const double since = std::chrono::duration<double>(now - last_).count();
   const double all = std::chrono::duration<double>(now - begin_).count();
@@ -130,7 +131,6 @@ void Progress::status(const Model& model, const Clock& clock, std::int64_t step)
   last_ = now;
   last_step_ = step;
   if (quiet_) return;
-  const cleave_energies e = model.energies();
   const cleave_counts counts = model.total_counts();
   const double scale = energy_scale(e);
   const double fraction = static_cast<double>(step) / static_cast<double>(clock.steps);

@@ -22,7 +22,7 @@ class Progress {
 
   // Whether the wall time between status lines has passed.
   bool due() const;
-  void status(const Model& model, const Clock& clock, std::int64_t step);
+  void status(const Model& model, const Clock& clock, std::int64_t step, const cleave_energies& e);
   void finish(const std::string& what, const std::vector<std::string>& files);
 
   double seconds() const;  // since the run began

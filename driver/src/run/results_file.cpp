@@ -184,7 +184,7 @@ void ResultsFile::fill(const Scene& scene, const Source& source,
   }
 }
 
-void ResultsFile::write_frame(const Scene& scene, double time) {
+void ResultsFile::write_frame(const Scene& scene, double time, const cleave_energies& energies) {
   std::size_t first = 0;
   for (const Source& source : nodal_) {
     fill(scene, source, nodal_values_, first);
@@ -195,7 +195,6 @@ void ResultsFile::write_frame(const Scene& scene, double time) {
     fill(scene, source, element_values_, first);
     first += source.written.size();
   }
-  const cleave_energies energies = scene.model().energies();
   std::vector<double> globals;
   for (const Global& global : kGlobals) globals.push_back(energies.*global.value);
   writer_->write_frame(time, nodal_values_, element_values_, globals);

@@ -19,7 +19,7 @@ class ResultsFile {
   void create(const std::string& path);
   // Continues after `frames` frames.
   void reopen(const std::string& path, std::int64_t frames);
-  void write_frame(const Scene& scene, double time);
+  void write_frame(const Scene& scene, double time, const cleave_energies& energies);
   std::int64_t frames() const { return writer_ ? writer_->frames() : 0; }
 
  private:

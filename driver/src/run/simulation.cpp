@@ -78,9 +78,9 @@ int Simulation::run() {
   progress_.banner(scene_, step_, 0);
   try {
     start_model(scene_, step_.clock.dt);
-    check_finite(0);
-    history_.write(scene_, 0, 0.0);
-    results_.write_frame(scene_, 0.0);
+    const cleave_energies energies = finite_energies(0);
+    history_.write(scene_, 0, 0.0, energies);
+    results_.write_frame(scene_, 0.0, energies);
   } catch (const KernelError& error) {
     throw RunError(std::string("the run failed at its start: ") + error.what());
   }
@@ -129,7 +129,9 @@ void Simulation::steps(Index& step, const StopRequest& stop) {
     ++step;
     after_step(step);
   }
-  if (step == step_.clock.steps) progress_.status(scene_.model(), step_.clock, step);
+  if (step == step_.clock.steps) {
+    progress_.status(scene_.model(), step_.clock, step, finite_energies(step));
+  }
   events_.flush();
   history_.flush();
 }
@@ -140,9 +142,9 @@ void Simulation::after_step(Index step) {
   const bool last = step == step_.clock.steps;
   if (checkpoint_schedule_.due(step) && !(last && checkpoint_at_end_)) write_checkpoint(step);
   if (progress_.due()) {
-    check_finite(step);
+    const cleave_energies energies = finite_energies(step);
     good_.take(scene_, step, cursors());
-    progress_.status(scene_.model(), step_.clock, step);
+    progress_.status(scene_.model(), step_.clock, step, energies);
   }
 }
 
@@ -151,9 +153,10 @@ void Simulation::write_outputs(Index step) {
   const double time = step_.clock.time(step);
   const bool record = last || history_schedule_.due(step);
   const bool frame = last || result_schedule_.due(step);
-  if (record || frame) check_finite(step);
-  if (record) history_.write(scene_, step, time);
-  if (frame) results_.write_frame(scene_, time);
+  if (!record && !frame) return;
+  const cleave_energies energies = finite_energies(step);
+  if (record) history_.write(scene_, step, time, energies);
+  if (frame) results_.write_frame(scene_, time, energies);
   if (record) keep_good_state(step);
 }
 
@@ -166,9 +169,9 @@ void Simulation::keep_good_state(Index step) {
   snapshot_seconds_ += progress_.seconds() - begin;
 }
 
-void Simulation::check_finite(Index step) const {
+cleave_energies Simulation::finite_energies(Index step) const {
   const cleave_energies energies = scene_.model().energies();
-  if (std::isfinite(energies.kinetic) && std::isfinite(energies.balance)) return;
+  if (std::isfinite(energies.kinetic) && std::isfinite(energies.balance)) return energies;
   std::string what = not_finite(scene_);
   if (what.empty()) what = "the energies are not finite";
   throw KernelError(what + " at step " + number(step) + ", time " + number(step_.clock.time(step)),
@@ -176,7 +179,7 @@ void Simulation::check_finite(Index step) const {
 }
 
 void Simulation::write_checkpoint(Index step) {
-  check_finite(step);
+  finite_energies(step);
   events_.flush();
   history_.flush();
   good_.take(scene_, step, cursors());

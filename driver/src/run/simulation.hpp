@@ -40,7 +40,8 @@ class Simulation {
   void write_outputs(std::int64_t step);
   void write_checkpoint(std::int64_t step);
   void keep_good_state(std::int64_t step);
-  void check_finite(std::int64_t step) const;
+  // Throws KernelError if the ledger is not finite, which any bad value ends in.
+  cleave_energies finite_energies(std::int64_t step) const;
   [[noreturn]] void fail(std::int64_t step, const std::string& what);
   Cursors cursors() const;
   std::vector<std::string> file_list() const;

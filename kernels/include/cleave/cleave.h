@@ -116,6 +116,7 @@ typedef struct cleave_table_entry {
   const char* source; /* equation tag or reference; "" if none */
 } cleave_table_entry;
 
+/* Number of entries of a table (enum cleave_table). */
 CLEAVE_API int32_t cleave_table_count(int32_t table, int64_t* count);
 /* [in,out] entry: entry->size must be set to sizeof(cleave_table_entry). */
 CLEAVE_API int32_t cleave_table_get(int32_t table, int64_t index, cleave_table_entry* entry);
@@ -138,6 +139,7 @@ typedef struct cleave_parameter {
   int32_t required; /* 1: no default */
 } cleave_parameter;
 
+/* Parameters of a material or group; [in,out] parameter: parameter->size must be set to its sizeof. */
 CLEAVE_API int32_t cleave_parameter_count(const char* owner, int64_t* count);
 CLEAVE_API int32_t cleave_parameter_get(const char* owner, int64_t index,
                                         cleave_parameter* parameter);
@@ -363,7 +365,7 @@ typedef struct cleave_energies {
   double internal;          /* work done against internal forces (trapezoid) */
   double balance;           /* kinetic + stored + dissipated - work - the same at the start */
   double identity;          /* discrete identity of the integrator, same form with `internal` */
-  double hourglass;         /* diagnostic E_hg [CBM theory 10], not part of the balance */
+  double hourglass;         /* diagnostic E_hg [CBM hourglass], not part of the balance */
 } cleave_energies;
 /* body = -1: sum over all bodies. */
 CLEAVE_API int32_t cleave_energies_get(cleave_model* model, int64_t body,

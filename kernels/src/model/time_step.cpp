@@ -1,8 +1,7 @@
 // One step of velocity Verlet, in two calls so that the host can set loads between them:
 //   advance   v += dt/2 a,  u += dt v
 //   update    break, gradient, stress, forces, a = f/m, v += dt/2 a
-// and the works of the energy ledger, half a trapezoid in each call.              [CBM 19,
-// Algorithm 1]
+// and the works of the energy ledger, half a trapezoid in each call.                         [CBM 19]
 #include <cmath>
 
 #include "model/model.hpp"

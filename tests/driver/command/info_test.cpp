@@ -6,6 +6,7 @@
 
 #include "io/archive.hpp"
 #include "io/error.hpp"
+#include "io/record_table.hpp"
 #include "io/results.hpp"
 
 namespace cleave::driver {
@@ -46,6 +47,19 @@ TEST(Info, DescribesResults) {
                "2 frames, time 0.25 to 0.75", "damage"});
 }
 
+TEST(Info, DescribesHistories) {
+  {
+    io::RecordTable table = io::RecordTable::create(
+        path_of("a.nc"), "", {{"step", "1", "step", true}, {"time", "s", "simulated time", false}},
+        {});
+    table.append(std::vector<double>{0, 0});
+    table.append(std::vector<double>{40, 0.5});
+    table.flush();
+  }
+  expect_said(file_description(path_of("a.nc")),
+              {"table of 2 records", "step", "40", "time", "[s]", "0.5", "simulated time"});
+}
+
 TEST(Info, RefusesOtherFiles) {
   std::ofstream(path_of("a.txt")) << "not a file of a run\n";
   try {
@@ -53,7 +67,7 @@ TEST(Info, RefusesOtherFiles) {
     FAIL() << "a text was described";
   } catch (const io::Error& error) {
     expect_said(error.what(),
-                {"neither a checkpoint nor results", "not a checkpoint", "not results"});
+                {"none of the files that a run writes", "not a checkpoint", "not results"});
   }
 }
 

@@ -8,7 +8,7 @@ import subprocess
 import sys
 import tempfile
 
-PROGRAM = sys.argv[1]
+PROGRAM = str(pathlib.Path(sys.argv[1]).resolve())
 
 PLATE = """
 &lattice type='hexagonal' spacing=1 size=60,40,0 /
@@ -24,9 +24,9 @@ PLATE = """
 FILES = ["case.exo", "case.history.nc", "case.history.csv", "case.events.nc"]
 
 
-def write_deck(directory, keys):
+def write_deck(directory, keys, groups=PLATE):
     directory.mkdir(parents=True)
-    text = f"&run units='other' title='a plate' name='case' {keys} /\n{PLATE}"
+    text = f"&run units='other' title='a plate' name='case' {keys} /\n{groups}"
     (directory / "case.nml").write_text(text)
 
 
@@ -73,7 +73,9 @@ def moved_directory(root):
 
 
 def failed(root):
-    write_deck(root / "bad", "t_end=4000 time_step=4 step_check='warn'")
+    """A step far above the stable one: where nothing breaks, the plate explodes."""
+    tough = PLATE.replace("&fracture critical_strain=0.05 /\n", "")
+    write_deck(root / "bad", "t_end=4000 time_step=4 step_check='warn'", tough)
     done = cleave(root / "bad", "case.nml")
     check(done.returncode == 1, f"exit code 1, not {done.returncode}", done.stdout + done.stderr)
     check("warning: time_step = 4 is above the stable step" in done.stdout, "warning", done.stdout)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -21,7 +22,8 @@ class RunDirectory : public ::testing::Test {
   void SetUp() override {
     const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
     directory = std::filesystem::temp_directory_path() /
-                ("cleave_" + std::string(info->test_suite_name()) + "_" + info->name());
+                ("cleave_" + std::string(info->test_suite_name()) + "_" + info->name() + "_" +
+                 std::to_string(getpid()));
     std::filesystem::remove_all(directory);
     std::filesystem::create_directories(directory);
   }

@@ -83,14 +83,15 @@ TEST_F(Table, HoldsWhatWasAppended) {
 TEST_F(Table, CsvIsPlainAndReadsBackExactly) {
   using Limits = std::numeric_limits<double>;
   RecordTable table = create();
-  table.append(std::vector{1.0, 0.1, 1e300});
+  table.append(std::vector{1e15, 0.1, 1e300});
   table.append(std::vector{-9007199254740992.0, Limits::quiet_NaN(), -Limits::infinity()});
   table.append(std::vector{0.0, -0.0, 5e-324});
   table.append(std::vector{2.0, std::copysign(Limits::quiet_NaN(), -1.0), Limits::infinity()});
   table.flush();
-  EXPECT_EQ(bytes_of(csv_),
-            "step [1],time [s],energy "
-            "[J]\n1,0.1,1e+300\n-9007199254740992,nan,-inf\n0,-0,5e-324\n2,nan,inf\n");
+  EXPECT_EQ(
+      bytes_of(csv_),
+      "step [1],time [s],energy "
+      "[J]\n1000000000000000,0.1,1e+300\n-9007199254740992,nan,-inf\n0,-0,5e-324\n2,nan,inf\n");
   const std::vector<double> times = read_column(path_, 1);
   EXPECT_TRUE(std::isnan(times[1]));
   EXPECT_TRUE(std::signbit(times[2]));
@@ -127,6 +128,14 @@ TEST_F(Table, RecordsAreVisibleAfterFlushAndNotBefore) {
   EXPECT_EQ(read_column(path_, 0).size(), 0u);
   table.flush();
   EXPECT_TRUE(found() == expected(5));
+}
+
+TEST_F(Table, FlushesItselfNowAndThen) {
+  RecordTable table = create();
+  append(table, 0, 4095);
+  EXPECT_EQ(read_column(path_, 0).size(), 0u);
+  append(table, 4095, 4100);
+  EXPECT_EQ(read_column(path_, 0).size(), 4096u);
 }
 
 TEST_F(Table, ContinuesAsIfItHadNeverBeenLonger) {

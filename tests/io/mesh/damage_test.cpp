@@ -1,14 +1,17 @@
 // Truncated and damaged files give an io::Error or a mesh, never a crash or a gigantic allocation. Most
 // is to be learnt from this under the sanitizers.
+#include <exodusII.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <random>
 
 #include "allocation_meter.hpp"
 #include "exodus_file.hpp"
 #include "io/error.hpp"
+#include "io/exodus_mesh_trial.hpp"
 #include "io/gmsh.hpp"
 #include "mesh_support.hpp"
 
@@ -54,9 +57,10 @@ void expect_consistent(const Mesh& mesh) {
   }
 }
 
-// Every length, or some 500 of them.
-void truncate_everywhere(const Reader& read, const std::string& bytes, std::size_t shortest_whole) {
-  const std::size_t stride = bytes.size() / 500 + 1;
+// Some `cuts` lengths, and one byte less than the shortest that is whole.
+void truncate_everywhere(const Reader& read, const std::string& bytes, std::size_t shortest_whole,
+                         std::size_t cuts) {
+  const std::size_t stride = bytes.size() / cuts + 1;
   for (std::size_t length = 0; length < shortest_whole; length += stride)
     EXPECT_FALSE(attempt(read, bytes.substr(0, length)).is_mesh) << "first " << length << " bytes";
   EXPECT_FALSE(attempt(read, bytes.substr(0, shortest_whole - 1)).is_mesh);
@@ -91,7 +95,7 @@ TEST_P(DamagedGmsh, Truncated) {
   // behind it ends with a mark again.
   const std::string last = bytes.substr(bytes.rfind("$End"));
   truncate_everywhere(read_gmsh, bytes,
-                      bytes.size() - (last.size() - last.find_last_not_of("\r\n") - 1));
+                      bytes.size() - (last.size() - last.find_last_not_of("\r\n") - 1), 500);
 }
 
 TEST_P(DamagedGmsh, Mutated) { mutate(read_gmsh, read_bytes(gmsh_file(GetParam())), 1500); }
@@ -103,9 +107,9 @@ INSTANTIATE_TEST_SUITE_P(Formats, DamagedGmsh,
 
 class DamagedExodus : public ::testing::Test {
  protected:
-  void SetUp() override {
+  void write(int mode) {
     path_ = scratch_path("damaged.exo");
-    write_exodus(path_, 0, exodus_plate());
+    write_exodus(path_, mode, exodus_plate());
     bytes_ = read_bytes(path_);
     read_ = [this](const std::string& bytes) {
       std::remove(path_.c_str());  // writing over a file would wait for the disk
@@ -119,9 +123,34 @@ class DamagedExodus : public ::testing::Test {
   Reader read_;
 };
 
-TEST_F(DamagedExodus, Truncated) { truncate_everywhere(read_, bytes_, bytes_.size()); }
+TEST_F(DamagedExodus, Truncated) {
+  write(0);
+  truncate_everywhere(read_, bytes_, bytes_.size(), 500);
+}
 
-TEST_F(DamagedExodus, Mutated) { mutate(read_, bytes_, 1500); }
+TEST_F(DamagedExodus, Mutated) {
+  write(0);
+  mutate(read_, bytes_, 1500);
+}
+
+// Few, because each costs a process; the HDF5 library does not survive some of them.
+TEST_F(DamagedExodus, TruncatedNetcdf4) {
+  write(EX_NETCDF4);
+  truncate_everywhere(read_, bytes_, bytes_.size(), 20);
+}
+
+TEST_F(DamagedExodus, MutatedNetcdf4) {
+  write(EX_NETCDF4);
+  mutate(read_, bytes_, 60);
+}
+
+TEST(TryInChild, TellsACrashFromAnError) {
+  EXPECT_FALSE(try_in_child([] {}).crashed);
+  EXPECT_EQ(try_in_child([] {}).error, "");
+  EXPECT_EQ(try_in_child([] { throw Error("no crash"); }).error, "no crash");
+  EXPECT_FALSE(try_in_child([] { throw Error("no crash"); }).crashed);
+  EXPECT_TRUE(try_in_child([] { std::abort(); }).crashed);
+}
 
 }  // namespace
 }  // namespace cleave::io::testing

@@ -1,4 +1,4 @@
-! Reads namelist files with the compiler's own namelist READ and prints what the variables hold then.
+! Reads namelist files with the compiler's own namelist READ and prints what the variables hold.
 ! reader.cpp declares the same variables, reads the same files with cleave::io and prints the same
 ! way; compare_with_fortran.py compares the two.
 !

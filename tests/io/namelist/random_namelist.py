@@ -180,7 +180,8 @@ class Writer:
     # ---- files
 
     def between_assignments(self):
-        return self.pick("\n", "\n", "\n", "\n  ", ",\n", ", ", " ", ";\n", " ! c, 1\n", ", ! c\n", "\n! x = 3\n\n", ",,\n")
+        return self.pick("\n", "\n", "\n", "\n  ", ",\n", ", ", " ", ";\n", " ! c, 1\n",
+                         ", ! c\n", "\n! x = 3\n\n", ",,\n")
 
     def group(self):
         mark = self.pick("&", "&", "&", "$")

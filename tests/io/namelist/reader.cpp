@@ -216,20 +216,20 @@ std::string bits(double number) {
   return text;
 }
 
-struct Written {
-  std::string operator()(nml::Null) const { return " null"; }
-  std::string operator()(std::int64_t n) const { return " " + std::to_string(n); }
-  std::string operator()(double x) const { return " " + bits(x); }
-  std::string operator()(bool b) const { return b ? " T" : " F"; }
-  std::string operator()(const std::string& text) const { return " [" + text + "]"; }
-  std::string operator()(const nml::Complex& z) const {
-    return " " + bits(z.re) + " " + bits(z.im);
+struct Write {
+  void operator()(nml::Null) const { std::cout << " null"; }
+  void operator()(std::int64_t n) const { std::cout << ' ' << n; }
+  void operator()(double x) const { std::cout << ' ' << bits(x); }
+  void operator()(bool b) const { std::cout << (b ? " T" : " F"); }
+  void operator()(const std::string& text) const { std::cout << " [" << text << ']'; }
+  void operator()(const nml::Complex& z) const {
+    std::cout << ' ' << bits(z.re) << ' ' << bits(z.im);
   }
 };
 
 void put(const std::string& name, const std::vector<nml::Scalar>& elements) {
   std::cout << name;
-  for (const nml::Scalar& element : elements) std::cout << std::visit(Written{}, element);
+  for (const nml::Scalar& element : elements) std::visit(Write{}, element);
   std::cout << "\n";
 }
 

@@ -1,5 +1,5 @@
-// Whatever bytes come in, the answer is a file or an io::Error that points into it; never a crash, never
-// much memory or time. Most telling with the sanitizers on.
+// Whatever bytes come in, the answer is a file or an io::Error that points into it; never a crash,
+// never much memory or time. Most telling with the sanitizers on.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -11,7 +11,7 @@ namespace nml = cleave::io::namelist;
 
 namespace {
 
-// Reads `text`; true if it is accepted. Otherwise checks that the error points to a place in the text.
+// Reads `text`; true if it is accepted. Otherwise checks that the error points into the text.
 bool survives(const std::string& text) {
   try {
     nml::to_json(nml::parse(text, "f"));
