@@ -146,18 +146,19 @@ std::int64_t entry_count(const NetcdfInput& file, const char* dimension, const c
   return count;
 }
 
-void add_cells(Reader& reader, Block& block, const std::string& name) {
-  MeshBuilder& builder = reader.builder;
-  if (block.shape == Shape::sphere) {
-    const MeshBuilder::Group group = builder.group(name, 0);
-    for (const std::int64_t node : block.nodes) builder.add_node(group, node);
-    return;
-  }
-  const auto kind = static_cast<CellKind>(corners(block.shape));
+void append_cells(MeshBuilder& builder, const std::string& name, CellKind kind,
+                  const std::vector<std::int64_t>& nodes) {
   CellBlock& cells = builder.block(kind);
   const std::int64_t first = cells.count();
-  cells.nodes.insert(cells.nodes.end(), block.nodes.begin(), block.nodes.end());
+  cells.nodes.insert(cells.nodes.end(), nodes.begin(), nodes.end());
   builder.add_cells(builder.group(name, static_cast<int>(kind) - 1), first, cells.count());
+}
+
+void add_block(MeshBuilder& builder, const Block& block, const std::string& name) {
+  if (block.shape != Shape::sphere)
+    return append_cells(builder, name, static_cast<CellKind>(corners(block.shape)), block.nodes);
+  const MeshBuilder::Group group = builder.group(name, 0);
+  for (const std::int64_t node : block.nodes) builder.add_node(group, node);
 }
 
 void read_block(Reader& reader, std::size_t number, const std::string& name) {
@@ -182,7 +183,7 @@ void read_block(Reader& reader, std::size_t number, const std::string& name) {
     } else {
       if (shape[0] != block.count) file.fail("variable " + connect + " has the wrong length");
       block.nodes = read_nodes(reader, connect);
-      add_cells(reader, block, name);
+      add_block(reader.builder, block, name);
     }
   }
   reader.blocks.push_back(std::move(block));
@@ -253,18 +254,11 @@ Facets read_facets(const Reader& reader, std::size_t number, const std::string& 
 
 void read_side_set(Reader& reader, std::size_t number, const std::string& name) {
   const Facets facets = read_facets(reader, number, name);
-  MeshBuilder& builder = reader.builder;
-  const auto add = [&](CellKind kind, const std::vector<std::int64_t>& nodes) {
-    CellBlock& cells = builder.block(kind);
-    const std::int64_t first = cells.count();
-    cells.nodes.insert(cells.nodes.end(), nodes.begin(), nodes.end());
-    builder.add_cells(builder.group(name, static_cast<int>(kind) - 1), first, cells.count());
-  };
   const bool is_empty = facets.edges.empty() && facets.triangles.empty();
   if (!facets.edges.empty() || (is_empty && reader.dimension < 3))
-    add(CellKind::line, facets.edges);
+    append_cells(reader.builder, name, CellKind::line, facets.edges);
   if (!facets.triangles.empty() || (is_empty && reader.dimension == 3))
-    add(CellKind::triangle, facets.triangles);
+    append_cells(reader.builder, name, CellKind::triangle, facets.triangles);
 }
 
 Reader open(const NetcdfInput& file, MeshBuilder& builder) {

@@ -68,8 +68,8 @@ class Descriptor {
 
 // The file that a chain of symbolic links leads to, whether it exists or not.
 std::string resolve_links(fs::path path) {
-  constexpr int kMostLinks =
-      40;  // the limit of Linux; a longer chain is a loop, which open() reports
+  // The limit of Linux; a longer chain is a loop, which open() reports.
+  constexpr int kMostLinks = 40;
   std::error_code ignored;
   for (int i = 0; i < kMostLinks && fs::is_symlink(path, ignored); ++i) {
     path = path.parent_path() / fs::read_symlink(path, ignored);

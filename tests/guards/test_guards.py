@@ -1,4 +1,6 @@
 """Every rule of the guards is seen to fail: a small tree that is in order, and one with each mistake."""
+import pathlib
+import tempfile
 import unittest
 
 import c_interface
@@ -212,8 +214,14 @@ class Formatting(GuardTest):
     def test_unformatted(self):
         if formatting._version("clang-format") != 14:
             self.skipTest("clang-format 14 is not here")
-        self.assert_quiet(formatting, {"kernels/a.cpp": "int a;\n"})
-        self.assert_complains(formatting, {"kernels/a.cpp": "int a;\nint   b ;\n"}, "kernels/a.cpp:2: run clang-format")
+        with tempfile.TemporaryDirectory() as root:
+            folder = pathlib.Path(root, "kernels")
+            folder.mkdir()
+            (folder / "good.cpp").write_text("int a;\n")
+            self.assertEqual(formatting.check(Tree.from_directory(root)), [])
+            (folder / "bad.cpp").write_text("int a;\nint   b ;\nint   c;\n")
+            self.assertEqual(formatting.check(Tree.from_directory(root)),
+                             ["kernels/bad.cpp:2: run clang-format -i kernels/bad.cpp"])
 
 
 if __name__ == "__main__":

@@ -100,20 +100,37 @@ def trends(case, found):
     case.figure("trend4_path_distance", cracks.path_distance(other.x, other.y, a.x, a.y) / a.spacing)
 
 
+def frame_at_arrival(result, spacing):
+    """The first frame in which a crack has arrived; the last one if none has."""
+    arrival, times = Crack(result, spacing).arrival, result.exodus.times
+    return int((times >= arrival).argmax()) if math.isfinite(arrival) else len(times) - 1
+
+
 def pictures(case, folder):
-    made = []
-    for name, result in case.results.items():
-        arrival = Crack(result, spacing_of(case.mode)).arrival
-        times = result.exodus.times
-        step = int(abs(times - arrival).argmin()) if math.isfinite(arrival) else len(times) - 1
-        for which, number in (("arrival", step), ("end", len(times) - 1)):
-            file = f"{name}-{which}.png"
-            picture.picture(result.path(".exo"), folder / file, step=number, title=f"Fig. {name}, damage")
-            made.append((file, f"Run {name}, frame at {which}: damage on the deformed plate"))
+    spacing = spacing_of(case.mode)
+    picture.picture(case.results["14a"].path(".exo"), folder / "figure.png", step=frame_at_arrival(case.results["14a"], spacing),
+                    title="PMMA plate, damage")
+    panels(case, folder / "runs.png")
     tip_figure(case, folder / "tip.png")
     energy_figure(case, folder / "energy.png")
-    return made + [("tip.png", "Position of the foremost crack tip; crosses: arrival times of the paper"),
-                   ("energy.png", "Energies of run 14a")]
+    return [("figure.png", "Run 14a when its crack has reached the right edge: damage on the deformed plate"),
+            ("runs.png", "All runs, each when its crack has reached the right edge"),
+            ("tip.png", "Position of the foremost crack tip; crosses: arrival times of the paper"),
+            ("energy.png", "Energies of run 14a")]
+
+
+def panels(case, file):
+    """All runs side by side, each when its crack has arrived."""
+    figure, grid = plt.subplots(3, 3, figsize=(12, 8.4), layout="constrained")
+    for axes in grid.flat[len(case.results):]:
+        axes.set_axis_off()
+    for (name, result), axes in zip(case.results.items(), grid.flat):
+        frame = frame_at_arrival(result, spacing_of(case.mode))
+        picture.draw_plate(axes, result.exodus, frame, "damage", "5")
+        axes.set(xticks=[], yticks=[], xlabel="", ylabel="")
+        axes.set_title(f"{name}   t = {picture.time_text(result.exodus.times[frame])}", fontsize=11, loc="left", color=picture.INK)
+    figure.savefig(file, dpi=110)
+    plt.close(figure)
 
 
 def tip_figure(case, file):

@@ -116,7 +116,7 @@ TEST_F(Meshed, MistakesNameWhatTheMeshHas) {
                   "'left' is not a group of triangles of the mesh; known groups of triangles: "
                   "lower, upper"));
   EXPECT_TRUE(has(said(kWhole + "&precrack mode='split' shape='group' set='lower' /\n"),
-                  "'lower' is not a mesh group of lines; known: notch, left, right"));
+                  "'lower' is not a mesh group of lines; known: left, notch, right"));
   EXPECT_TRUE(has(said(kWhole + "&precrack mode='split' shape='group' set='left' /\n"),
                   "separates nothing in body 'plate'"));
   EXPECT_TRUE(has(said("&body kinematics='3d' material='unit' /\n"), "the mesh has no tetrahedra"));

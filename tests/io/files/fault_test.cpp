@@ -28,6 +28,8 @@ struct Disk {
   int at = 0;         // the call that fails, counted from 0
   std::string calls;  // what was called: a letter each
 
+  std::size_t percent = 50;  // where in the bytes written the wrong bit is
+
   bool is_error() const { return fault == Fault::error || fault == Fault::lasting_error; }
 
   bool strikes(char call) {
@@ -61,7 +63,8 @@ ssize_t write(int file, const void* bytes, std::size_t count) {
   if (disk.is_error()) return failed();
   if (disk.fault == Fault::short_write) return real_write(file, bytes, (count + 1) / 2);
   std::string damaged(static_cast<const char*>(bytes), count);
-  damaged[count / 2] = static_cast<char>(damaged[count / 2] ^ 4);
+  const std::size_t place = (count - 1) * disk.percent / 100;
+  damaged[place] = static_cast<char>(damaged[place] ^ 4);
   return real_write(file, damaged.data(), count);
 }
 
@@ -94,7 +97,10 @@ using namespace cleave::io;
 // Does `action` with the fault at call `at`; the text of its error, or "".
 template <class Action>
 std::string with_fault(Fault fault, int error, int at, Action&& action) {
-  disk = {fault, error, at, ""};
+  disk.fault = fault;
+  disk.error = error;
+  disk.at = at;
+  disk.calls.clear();
   std::string message;
   try {
     action();
@@ -162,6 +168,35 @@ TEST(FaultyDisk, AnArchiveIsTheOldOrTheNewOne) {
     // A short write is made good; the others cannot be.
     EXPECT_EQ(reported > 0, kind.fault != Fault::short_write);
   }
+}
+
+// Header and data are several buffers long, so that a wrong bit in one is not written over with another.
+TEST(FaultyDisk, AWrongBitAnywhereIsFound) {
+  const ScratchFolder folder;
+  const std::string path = folder.file("state.nc");
+  Archive archive = sample_archive();
+  archive.attributes.push_back({"long_deck", std::string(200000, 'x')});
+  archive.arrays.push_back({"long", "m", "", 1, std::vector<double>(25000, 1.0)});
+  int found = 0;
+  for (const std::size_t percent : {0, 30, 60, 100}) {
+    disk.percent = percent;
+    for (int at = 0;; ++at) {
+      write_archive(path, old_archive());
+      const std::string message =
+          with_fault(Fault::wrong_bit, 0, at, [&] { write_archive(path, archive); });
+      const bool done = at >= static_cast<int>(disk.calls.size());
+      if (message.empty()) {
+        ASSERT_EQ(bits_of(read_archive(path).arrays.back().data),
+                  bits_of(archive.arrays.back().data));
+        ASSERT_EQ(read_archive(path).attributes.back(), archive.attributes.back()) << at;
+      } else {
+        ++found;
+        ASSERT_EQ(read_archive(path).arrays.size(), 1u);
+      }
+      if (done) break;
+    }
+  }
+  EXPECT_GT(found, 12);
 }
 
 const std::vector<Column> kColumns{{"step", "1", "", true}, {"energy", "J", "", false}};

@@ -1,5 +1,5 @@
-// Truncated and damaged files give an io::Error or a mesh, never a crash or a gigantic allocation. Most
-// is to be learnt from this under the sanitizers.
+// Truncated and damaged files give an io::Error or a mesh, never a crash or a gigantic allocation.
+// Most is to be learnt from this under the sanitizers.
 #include <exodusII.h>
 #include <gtest/gtest.h>
 
@@ -91,8 +91,7 @@ class DamagedGmsh : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(DamagedGmsh, Truncated) {
   const std::string bytes = read_bytes(gmsh_file(GetParam()));
-  // A file cut before $Elements has no mesh, one cut after $EndElements may be whole; what gmsh writes
-  // behind it ends with a mark again.
+  // Every section ends with a mark; only the line end behind the last one can be missed.
   const std::string last = bytes.substr(bytes.rfind("$End"));
   truncate_everywhere(read_gmsh, bytes,
                       bytes.size() - (last.size() - last.find_last_not_of("\r\n") - 1), 500);

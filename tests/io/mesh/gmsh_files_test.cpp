@@ -45,6 +45,7 @@ TEST(GmshFiles, PlateHasTheSizeOfItsGeometry) {
   ASSERT_NE(mesh.find_group("nowhere"), nullptr);
   EXPECT_TRUE(mesh.find_group("nowhere")->nodes.empty());
   EXPECT_EQ(mesh.find_group("left"), nullptr);
+  ASSERT_NE(mesh.find_group("plate"), nullptr);
   EXPECT_EQ(static_cast<std::int64_t>(mesh.find_group("plate")->nodes.size()), mesh.point_count());
   EXPECT_EQ(mesh.skipped_summary(), "");
 }
@@ -65,6 +66,7 @@ TEST(GmshFiles, ElementsInTwoGroupsAreReadOnce) {
   const Mesh mesh = read_mesh(gmsh_file("plate-22-text.msh"));
   const std::string text = read_bytes(mesh.path);
   const auto written = std::stoll(text.substr(text.find("$Elements") + 10));
+  ASSERT_NE(mesh.find_group("right"), nullptr);
   const auto right = static_cast<std::int64_t>(mesh.find_group("right")->cells.size());
   EXPECT_GT(right, 0);
   const std::int64_t corner = 1;

@@ -82,7 +82,7 @@ struct Case {
   double second_length;  // longest edge, in spacings
 };
 
-// n x n x n cubes. bcc: the pits between the outer body centres are not filled, V = n^2 (n-1) a^3. fcc:
+// n x n x n cubes. bcc: the pits between the outer body centres stay open, V = n^2 (n-1) a^3. fcc:
 // the octahedra on the two y faces lack a corner of their diagonal, V = n^2 (n - 1/3) a^3.
 // Hexagonal, rows of 6 and 5 spacings: 5 strips of 11 triangles.
 std::vector<Case> cases() {
@@ -216,8 +216,8 @@ TEST(Lattice, DiagonalsOfTheSquareAlternate) {
 }
 
 TEST(Lattice, DiscAndSphereConverge) {
-  // The shape less a layer of about half a spacing. Measured: 0.949 and 0.957 (disc), 0.829, 0.882 and
-  // 0.869 (sphere), in the order of the kinds.
+  // The shape less a layer of about half a spacing. Measured, in the order of the kinds: 0.949 and
+  // 0.957 (disc), 0.829, 0.882 and 0.869 (sphere).
   for (const LatticeKind kind : {LatticeKind::square, LatticeKind::hexagonal}) {
     const Mesh disc = make_lattice(rounded(kind, ShapeKind::sphere, 20 * kSpacing));
     const double ratio =

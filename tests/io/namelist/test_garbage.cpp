@@ -2,6 +2,8 @@
 // never much memory or time. Most telling with the sanitizers on.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <random>
 
 #include "io/error.hpp"

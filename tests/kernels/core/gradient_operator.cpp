@@ -49,7 +49,7 @@ TEST_P(GradientOperatorOf, AffineMotionIsExact) {
     for (std::size_t r = 0; r < 3; ++r)
       for (std::size_t c = 0; c < 3; ++c) {
         const bool given = r < d && c < d && b.volume[i] > 0;
-        EXPECT_NEAR(H[9 * i + r + 3 * c], given ? A[r][c] : 0.0, 4e-13);  // measured 6e-14
+        EXPECT_NEAR(H[9 * i + r + 3 * c], given ? A[r][c] : 0.0, 1e-13);  // measured 4e-15
       }
     checked += b.volume[i] > 0 ? 1 : 0;
   }
@@ -78,10 +78,10 @@ TEST_P(GradientOperatorOf, IsTheVolumeAverageOfTheSimplices) {
     }
   }
   for (std::size_t i = 0; i < volume.size(); ++i) {
-    EXPECT_NEAR(b.volume[i], volume[i], 1e-14);  // measured 3e-16
+    EXPECT_NEAR(b.volume[i], volume[i], 1e-14);  // measured 4e-16
     if (volume[i] == 0) continue;
     for (std::size_t k = 0; k < 9; ++k)
-      EXPECT_NEAR(H[9 * i + k], sum[9 * i + k] / volume[i], 1e-13);  // measured 5e-15
+      EXPECT_NEAR(H[9 * i + k], sum[9 * i + k] / volume[i], 1e-14);  // measured 3e-16
   }
 }
 
@@ -99,7 +99,7 @@ TEST_P(GradientOperatorOf, ForceIsTheSumOverPairs) {
                               P[at(9 * p + r + 3 * c)] * b.zeta[at(3 * back + c)];
         }
     }
-  for (std::size_t k = 0; k < f.size(); ++k) EXPECT_NEAR(f[k], g[k], 1e-13);  // measured 3e-15
+  for (std::size_t k = 0; k < f.size(); ++k) EXPECT_NEAR(f[k], g[k], 1e-13);  // measured 7e-16
 }
 
 // sum x (x) f = - sum Omega F P^T for the force ON particles and any stress, and no net force.
@@ -114,7 +114,7 @@ TEST_P(GradientOperatorOf, Virial) {
       total += f[3 * i + r];
       size += std::fabs(f[3 * i + r]);
     }
-    EXPECT_NEAR(total, 0, 1e-14 * size);  // measured 1e-16
+    EXPECT_NEAR(total, 0, 1e-14 * size);  // measured 6e-17
     for (std::size_t c = 0; c < d; ++c) {
       double outer = 0, inner = 0, scale = 0;
       for (std::size_t i = 0; i < b.volume.size(); ++i) {
@@ -125,7 +125,7 @@ TEST_P(GradientOperatorOf, Virial) {
           inner += b.volume[i] * F * P[9 * i + c + 3 * k];
         }
       }
-      EXPECT_NEAR(outer, -inner, 1e-13 * scale);  // measured 3e-15
+      EXPECT_NEAR(outer, -inner, 1e-14 * scale);  // measured 9e-17
     }
   }
 }

@@ -20,9 +20,9 @@ TEST(Ramp, VelocityAndAccelerationAreTheDerivatives) {
                    after = ramp(kValue, kTau, t + dt);
       // Central differences: error dt^2/6 of a third derivative of size 60 u/tau^3.
       EXPECT_NEAR((after.displacement - before.displacement) / (2 * dt), m.velocity,
-                  5e-9 * kValue / kTau);  // measured 1e-9
+                  5e-9 * kValue / kTau);  // measured 7e-10
       EXPECT_NEAR((after.velocity - before.velocity) / (2 * dt), m.acceleration,
-                  5e-8 * kValue / (kTau * kTau));  // measured 1.2e-8
+                  5e-8 * kValue / (kTau * kTau));  // measured 5e-9
     }
   }
 }

@@ -47,6 +47,7 @@ class ContinuumBondMethod final : public Formulation {
   ViscosityForm viscosity_ = ViscosityForm::none;
   BondRate<std::int32_t> bond_rate_;
   double beta_ = 0;
+  double shortest_ = 0, stable_length_ = 0;  // [m] of the intact body: do not change with damage
   std::vector<std::int64_t> failed_;  // per block: first particle whose law has no answer, or -1
 };
 

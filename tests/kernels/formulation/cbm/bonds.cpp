@@ -80,7 +80,7 @@ TEST_P(BondVectors, EqualThePublishedFormWithTheMomentMatrix) {
     const auto found = zeta.find({i, p});
     for (std::size_t k = 0; k < 3; ++k) {
       const double expected = found == zeta.end() ? 0.0 : found->second[k];
-      EXPECT_NEAR(b.zeta[at(3 * half) + k], expected, 1e-13);  // measured 8e-15
+      EXPECT_NEAR(b.zeta[at(3 * half) + k], expected, 1e-14);  // measured 4e-16
     }
   });
 }
@@ -99,7 +99,7 @@ TEST_P(BondVectors, ProjectionOnTheBondIsItsShareOfVolume) {
   const auto w = b.weights();
   std::vector<double> row_sum(b.volume.size(), 0.0);
   for_half_bonds(b, [&](std::int64_t i, std::int64_t p, std::int64_t half) {
-    EXPECT_NEAR(w[at(half)], (share[{i, p}]), 1e-14);  // measured 4e-16
+    EXPECT_NEAR(w[at(half)], (share[{i, p}]), 1e-14);  // measured 1e-16
     row_sum[at(i)] += w[at(half)];
   });
   for (std::size_t i = 0; i < row_sum.size(); ++i)
@@ -121,7 +121,7 @@ TEST_P(BondVectors, InteriorRowsSumToZeroAndInteriorBondsAreAntisymmetric) {
     if (boundary.bond(i, p)) {
       outside_differs += difference > 0.01 ? 1 : 0;
     } else {
-      EXPECT_LT(difference, 1e-14);  // measured 6e-16
+      EXPECT_LT(difference, 1e-14);  // measured 1e-16
       ++bonds_inside;
     }
   });

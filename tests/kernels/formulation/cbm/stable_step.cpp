@@ -66,7 +66,7 @@ TEST(StableStep, RuleIsBelowTheLimitOfJitteredTriangles) {
   for (const double jitter : {0.0, 0.2, 0.3}) {
     for (const unsigned seed : {1u, 2u, 3u, 4u}) {
       const SimplexMesh mesh = triangular_lattice(14, 14, 1.0, jitter, seed);
-      EXPECT_GT(critical_step(mesh) / model_step(mesh), 1.05) << jitter;  // measured 1.09 to 1.9
+      EXPECT_GT(critical_step(mesh) / model_step(mesh), 1.05) << jitter;  // measured 1.09 to 2.8
     }
   }
 }
@@ -75,7 +75,48 @@ TEST(StableStep, RuleIsBelowTheLimitOfSplitSquaresAndCubes) {
   for (const int d : {2, 3}) {
     for (const double jitter : {0.0, 0.1, 0.2}) {
       const SimplexMesh mesh = patch(d, d == 2 ? 12 : 5, 1.0, jitter, 61);
+      // measured 1.02 to 1.7
       EXPECT_GT(critical_step(mesh) / model_step(mesh), 1.0) << d << "d, jitter " << jitter;
+    }
+  }
+}
+
+// One particle outside the patch, `height` above the middle of a facet: a flat simplex of little
+// mass at the surface, whose edges tell nothing of its stiffness.
+SimplexMesh with_cap(int dimension, double height) {
+  SimplexMesh mesh = patch(dimension, 4, 1.0, 0.0, 61);
+  if (dimension == 2) {
+    mesh.X.insert(mesh.X.end(), {1.5, -height, 0});
+    mesh.simplices.insert(mesh.simplices.end(), {1, 2, 25});
+  } else {
+    mesh.X.insert(mesh.X.end(), {1.6, 1.3, -height});
+    mesh.simplices.insert(mesh.simplices.end(), {5 + 1, 5 + 2, 10 + 2, 125});
+  }
+  return mesh;
+}
+
+TEST(StableStep, KnowsFlatSimplicesAtTheSurface) {
+  for (const int d : {2, 3}) {
+    for (const double height : {0.5, 0.2, 0.1, 0.02}) {
+      const SimplexMesh mesh = with_cap(d, height);
+      const double ratio = critical_step(mesh) / model_step(mesh);  // measured 1.2 to 1.44
+      EXPECT_GT(ratio, 1.1) << d << ' ' << height;
+      EXPECT_LT(ratio, 1.6) << d << ' ' << height;  // and is not overcautious
+    }
+  }
+}
+
+// Flat simplices inside share their particles' mass with others: the step stays that of the edges.
+TEST(StableStep, IsTheShortestEdgesOnOrdinaryMeshes) {
+  for (const int d : {2, 3}) {
+    for (const double jitter : {0.0, 0.2}) {
+      const SimplexMesh mesh = patch(d, d == 2 ? 12 : 5, 1.0, jitter, 61);
+      Model model;
+      model.add(case_of(d), mesh);
+      model.setup();
+      const auto length = model.real("bond_length");
+      const double shortest = *std::min_element(length.begin(), length.end());
+      EXPECT_DOUBLE_EQ(model.stable_step(), 0.9 * shortest / wave_speed(d)) << d << ' ' << jitter;
     }
   }
 }
@@ -114,10 +155,10 @@ std::vector<Setting> viscosity(const char* form, double beta, double length = 1.
 TEST(StableStep, EnergyDoesNotGrowAtTheRulesStep) {
   for (const int d : {2, 3}) {
     for (const double jitter : {0.0, 0.2}) {
-      EXPECT_LT(growth(d, {}, jitter, 1.0, 600), 1.3);  // it oscillates; measured 1.1
+      EXPECT_LT(growth(d, {}, jitter, 1.0, 600), 1.01);  // measured 1.0007
       for (const double beta : {0.5, 1.0}) {
         for (const char* form : {"frozen", "central"}) {
-          EXPECT_LT(growth(d, viscosity(form, beta), jitter, 1.0, 600), 1.1)
+          EXPECT_LT(growth(d, viscosity(form, beta), jitter, 1.0, 600), 1.01)
               << d << form << beta << ' ' << jitter;
         }
       }
@@ -137,8 +178,8 @@ TEST(StableStep, EnergyGrowsWithoutBoundFarAboveTheRulesStep) {
 TEST(StableStep, KnowsThatALongViscousLengthIsMoreViscous) {
   for (const double length : {0.5, 2.0, 3.0, 5.0, 10.0, 30.0}) {
     for (const double beta : {0.5, 2.0}) {
-      EXPECT_LT(growth(2, viscosity("frozen", beta, length), 0.0, 1.0, 600), 1.1) << length;
-      EXPECT_LT(growth(3, viscosity("frozen", beta, length), 0.0, 1.0, 300), 1.1) << length;
+      EXPECT_LT(growth(2, viscosity("frozen", beta, length), 0.0, 1.0, 600), 1.01) << length;
+      EXPECT_LT(growth(3, viscosity("frozen", beta, length), 0.0, 1.0, 300), 1.01) << length;
     }
   }
 }
@@ -147,7 +188,7 @@ TEST(StableStep, StabilisationAtItsUsualStrengthFitsUnderTheRule) {
   for (const char* name : {"deviation", "blend"}) {
     EXPECT_LT(growth(2, {{"stabilisation", "form", 0, name}, {"stabilisation", "alpha", 0.05}}, 0.2,
                      1.0, 600),
-              1.3)
+              1.01)
         << name;
   }
 }

@@ -114,7 +114,7 @@ TEST_P(Viscosity, EveryPairOfTheCentralFormsDissipates) {
           torque = std::fmax(torque, std::fabs(xa * on_i[b] - xb * on_i[a]));
         }
         EXPECT_LE(power, 1e-15);
-        EXPECT_LT(torque, 1e-14);  // central; measured 1e-16
+        EXPECT_LT(torque, 1e-14);  // central; measured 2e-16
         working += power < 0 ? 1 : 0;
       }
     EXPECT_GT(working, s.bonds.half_bonds() / 2);
@@ -135,13 +135,13 @@ TEST_P(Viscosity, ConservesMomentumAndTheCentralFormsAngularMomentum) {
         sum += f[3 * i + k];
         torque += s.x[3 * i + a] * f[3 * i + b] - s.x[3 * i + b] * f[3 * i + a];
       }
-      EXPECT_NEAR(sum, 0, 1e-14 * size);  // measured 1e-16
+      EXPECT_NEAR(sum, 0, 1e-14 * size);  // measured 2e-17
       twist = std::fmax(twist, std::fabs(torque));
     }
     if (form == Form::paper) {
       EXPECT_GT(twist, 1e-4 * size);  // it does not, by its form
     } else {
-      EXPECT_LT(twist, 1e-13 * size);  // measured 1e-15
+      EXPECT_LT(twist, 1e-14 * size);  // measured 1e-16
     }
   }
 }
@@ -183,7 +183,7 @@ TEST_P(Viscosity, PaperFormIsThePublishedOneAddedWithPlus) {
                                     s.J[at(i)] * Fi[c][r] * s.bonds.zeta[at(3 * half) + c]);
         }
     }
-  for (std::size_t k = 0; k < f.size(); ++k) EXPECT_NEAR(f[k], g[k], 1e-13);  // measured 4e-15
+  for (std::size_t k = 0; k < f.size(); ++k) EXPECT_NEAR(f[k], g[k], 1e-13);  // measured 2e-15
   EXPECT_LT(s.power(Form::paper), 0);
 }
 
@@ -193,8 +193,8 @@ TEST_P(Viscosity, FormsAgreeForSmallDeformation) {
               1e-13 * std::fabs(undeformed.power(Form::frozen)));  // the same force there
   const double frozen = small.power(Form::frozen);
   EXPECT_LT(frozen, 0);
-  EXPECT_NEAR(small.power(Form::central) / frozen, 1, 0.03);  // measured 2e-3
-  EXPECT_NEAR(small.power(Form::paper) / frozen, 1, 0.10);    // theory: within 6 %
+  EXPECT_NEAR(small.power(Form::central) / frozen, 1, 0.01);  // measured 4e-4
+  EXPECT_NEAR(small.power(Form::paper) / frozen, 1, 0.10);    // measured 0.046; theory: within 6 %
 }
 
 INSTANTIATE_TEST_SUITE_P(Dimensions, Viscosity, testing::Values(2, 3),
