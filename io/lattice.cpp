@@ -101,7 +101,7 @@ struct Split {
 // bond, and the edges are 1 and 1.15 (bcc) or 1 and 1.41 (fcc) spacings long. The rhombohedron of
 // fcc with angles of 60 degrees would have edges of 1.73.
 Split split_of(LatticeKind kind) {
-  const auto same = [](std::vector<Simplex> s) { return Split{s, s}; };
+  const auto same = [](const std::vector<Simplex>& s) { return Split{s, s}; };
   switch (kind) {
     case LatticeKind::square:
       return {{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}},

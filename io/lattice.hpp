@@ -23,13 +23,13 @@ struct LatticeSpec {
 };
 
 // Points are numbered lexicographically. square and hexagonal give triangles, the others tetrahedra
-// (Kuhn split of the primitive cell; square: alternating diagonals), all of positive volume. A block
-// of a square or cubic lattice whose edge is not a multiple of the spacing (to 1e-6 of the edge) is
-// refused with the two nearest sizes, and one that is ends exactly at its size; of the others what
-// fits is kept, from the lowest corner (block) or the centre on. Points without a simplex are
-// dropped. Groups: all simplices as "all"; for a block the points of its faces as "xmin", "xmax",
-// "ymin", "ymax", "zmin", "zmax" (extreme coordinates within half a spacing * 1e-6), for a cylinder
-// those of its base and top, "zmin" and "zmax" if its axis is z.
+// (Kuhn split of the primitive cell; square: alternating diagonals), all of positive volume. A
+// block of a square or cubic lattice whose edge is not a multiple of the spacing (to 1e-6 of the
+// edge) is refused with the two nearest sizes, and one that is ends exactly at its size; of the
+// others what fits is kept, from the lowest corner (block) or the centre on. Points without a
+// simplex are dropped. Groups: all simplices as "all"; for a block the points of its faces as
+// "xmin", "xmax", "ymin", "ymax", "zmin", "zmax" (extreme coordinates within half a spacing *
+// 1e-6), for a cylinder those of its base and top, "zmin" and "zmax" if its axis is z.
 // Throws io::Error: spacing, size or radius not above zero, more than 2^31 points, not one cell.
 Mesh make_lattice(const LatticeSpec& spec);
 

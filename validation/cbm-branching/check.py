@@ -108,8 +108,8 @@ def frame_at_arrival(result, spacing):
 
 def pictures(case, folder):
     spacing = spacing_of(case.mode)
-    picture.picture(case.results["14a"].path(".exo"), folder / "figure.png", step=frame_at_arrival(case.results["14a"], spacing),
-                    title="PMMA plate, damage")
+    first = case.results["14a"]
+    picture.picture(first.path(".exo"), folder / "figure.png", step=frame_at_arrival(first, spacing), title="PMMA plate, damage")
     panels(case, folder / "runs.png")
     tip_figure(case, folder / "tip.png")
     energy_figure(case, folder / "energy.png")
@@ -128,7 +128,8 @@ def panels(case, file):
         frame = frame_at_arrival(result, spacing_of(case.mode))
         picture.draw_plate(axes, result.exodus, frame, "damage", "5")
         axes.set(xticks=[], yticks=[], xlabel="", ylabel="")
-        axes.set_title(f"{name}   t = {picture.time_text(result.exodus.times[frame])}", fontsize=11, loc="left", color=picture.INK)
+        time = picture.time_text(result.exodus.times[frame])
+        axes.set_title(f"{name}   t = {time}", fontsize=11, loc="left", color=picture.INK)
     figure.savefig(file, dpi=110)
     plt.close(figure)
 

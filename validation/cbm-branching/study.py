@@ -32,7 +32,11 @@ CHANGES = {
     "prescription paper": {"load(3).prescription": "paper"},
     "stabilisation 0.05": {"stabilisation.form": "blend", "stabilisation.alpha": 0.05},
 }
-STUDIED = {"14a": tuple(CHANGES), "14b": ("as in the deck", "ramp 10 us", "ramp 50 us", "ramp 60 us", "viscosity paper", "half the step")}
+STUDIED = {
+    "14a": tuple(CHANGES),
+    "14b": ("as in the deck", "ramp 10 us", "ramp 50 us", "ramp 60 us", "viscosity paper", "half the step"),
+}
+COLUMNS = ["particles", "first break (us)", "arrival (us)", "broken bonds", "branches", "most", "closure"]
 
 
 def plate(factor=1.0):
@@ -57,4 +61,4 @@ def row(result):
 
 
 if __name__ == "__main__":
-    sensitivity.main(HERE, runs(), ["particles", "first break (us)", "arrival (us)", "broken bonds", "branches", "most", "closure"], row)
+    sensitivity.main(HERE, runs(), COLUMNS, row)

@@ -66,11 +66,12 @@ def pictures(case, folder):
         axes.plot(history["time"] * 1e6, dissipated_part(history), lw=1.5, label=f"1/{part} mm")
     axes.set(xlabel="time (µs)", ylabel="dissipated energy / total energy at the end", ylim=(0, 1))
     axes.legend(title="spacing")
-    figure.savefig(folder / "dissipation.png", dpi=130)
+    figure.savefig(folder / "figure.png", dpi=130)
     plt.close(figure)
-    made = [("dissipation.png", "Fig. 12: dissipated energy over the total energy at the end")]
+    made = [("figure.png", "Fig. 12: dissipated energy over the total energy at the end")]
     for part in PARTS[case.mode]:
         file = f"crack-l{part}.png"
-        picture.picture(case.results[f"l{part}"].path(".exo"), folder / file, title=f"Fig. 13, l = 1/{part} mm, damage", deform="1")
+        result = case.results[f"l{part}"].path(".exo")
+        picture.picture(result, folder / file, title=f"Fig. 13, l = 1/{part} mm, damage", deform="1")
         made.append((file, f"Fig. 13: crack path with l = 1/{part} mm"))
     return made

@@ -8,6 +8,7 @@ import math
 
 import matplotlib.pyplot as plt
 import numpy
+from matplotlib.ticker import NullLocator
 from tools.simulation import Mesh, Run
 
 DENSITY, YOUNG, POISSON = 2700.0, 70e9, 0.3
@@ -67,7 +68,8 @@ def wave_run(series, wave, level):
     held = "xyz"[: 3 if deep else 2].replace(moving, "")
     if mesh == "gmsh":
         parameters = (("h", spacing * 1e3),) + ((("depth", WIDTH * 1e3),) if deep else ())
-        return Run(name, "wave_mesh.nml", changes | {"load(2).directions": held}, Mesh("bar.geo", parameters, "bar.msh", 3 if deep else 2))
+        mesh = Mesh("bar.geo", parameters, "bar.msh", 3 if deep else 2)
+        return Run(name, "wave_mesh.nml", changes | {"load(2).directions": held}, mesh)
     changes["lattice.spacing"] = spacing
     if mesh == "hexagonal":
         later = {"zone(2).centre": (spacing / 2, 0, 0), "load(2).begin": spacing / 2 / speed, "load(2).ramp": LENGTH / speed,
@@ -107,7 +109,8 @@ def speed_error(result, series, wave):
 
 
 def errors_of(case, series, wave):
-    return [against_exact(case.results[f"{series}-{wave}-{level}"], series, wave, -1)[0] for level in refinements(series, case.mode)]
+    return [against_exact(case.results[f"{series}-{wave}-{level}"], series, wave, -1)[0]
+            for level in refinements(series, case.mode)]
 
 
 def check(case):
@@ -154,21 +157,33 @@ def turned(result):
 
 
 def pictures(case, folder):
-    figure, axes = plt.subplots(1, 2, figsize=(11, 4.6), layout="constrained")
-    result = case.results[f"irregular-P-{refinements('irregular', case.mode)[-1]}"]
-    speed, data = wave_speed("plane_strain", "P"), result.exodus
-    for frame in range(1, len(data.times)):
-        axes[0].plot(data.points[:, 1] * 1e3, data.displacement(frame)[:, 1] * 1e9, ".", ms=2, color="#a3122f")
-        y = numpy.linspace(0, BAR, 400)
-        axes[0].plot(y * 1e3, HEIGHT * 1e9 * ramp((data.times[frame] * speed - y) / LENGTH)[0], "k", lw=0.8)
-    axes[0].set(xlabel="y (mm)", ylabel="displacement (nm)", title="P wave, irregular mesh: particles and exact solution")
-    for series in SERIES:
-        for wave, style in (("P", "o-"), ("S", "s--")):
-            spacings = [1 / 2**level for level in refinements(series, case.mode)]
-            axes[1].loglog(spacings, errors_of(case, series, wave), style, lw=1.2, ms=5, label=f"{wave} {series}")
-    axes[1].loglog([0.25, 1], [0.002, 0.032], "k:", label="second order")
-    axes[1].set(xlabel="spacing (mm)", ylabel="relative error of the displacement")
-    axes[1].legend(fontsize=8)
-    figure.savefig(folder / "waves.png", dpi=130)
+    figure, (profiles, convergence) = plt.subplots(1, 2, figsize=(11, 4.6), layout="constrained")
+    draw_profiles(case, profiles)
+    draw_convergence(case, convergence)
+    figure.savefig(folder / "figure.png", dpi=130)
     plt.close(figure)
-    return [("waves.png", "Plane waves: profiles against the exact solution, and convergence")]
+    return [("figure.png", "Plane waves: profiles against the exact solution, and convergence")]
+
+
+def draw_profiles(case, axes):
+    data = case.results[f"irregular-P-{refinements('irregular', case.mode)[-1]}"].exodus
+    speed, y = wave_speed("plane_strain", "P"), numpy.linspace(0, BAR, 400)
+    for frame in range(1, len(data.times)):
+        exact, = axes.plot(y * 1e3, HEIGHT * 1e9 * ramp((data.times[frame] * speed - y) / LENGTH)[0], color="#f7c548", lw=5)
+        particles, = axes.plot(data.points[:, 1] * 1e3, data.displacement(frame)[:, 1] * 1e9, ".", ms=2, color="#7a0f3c")
+    axes.set(xlabel="y (mm)", ylabel="displacement (nm)", title="P wave, irregular mesh in plane strain")
+    axes.legend([exact, particles], ["exact", "particles"])
+
+
+def draw_convergence(case, axes):
+    for series, colour in zip(SERIES, ("#1f6f8b", "#c4173a", "#ee6c2b", "#3a7d44", "#6a4c93")):
+        spacings = [1 / 2**level for level in refinements(series, case.mode)]
+        for wave, style in (("P", "o-"), ("S", "s--")):
+            axes.loglog(spacings, errors_of(case, series, wave), style, color=colour, lw=1.2, ms=5, label=f"{wave} {series}")
+    ends = numpy.array([1 / 2 ** max(refinements("square", case.mode)), 1])
+    axes.loglog(ends, 0.032 * ends**2, "k:", label="second order")
+    ticks = [1 / 2**level for level in refinements("square", case.mode)]
+    axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
+    axes.xaxis.set_minor_locator(NullLocator())
+    axes.set(xlabel="spacing (mm)", ylabel="relative error of the displacement", title="Convergence")
+    axes.legend(fontsize=8)

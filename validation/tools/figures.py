@@ -36,7 +36,8 @@ def _rows(path, columns):
         raise ContractError(f"{path}: the columns must be {','.join(columns)}; found {','.join(reader.fieldnames or [])}")
     for row in reader:
         if None in row or None in row.values():
-            raise ContractError(f"{path}: the line of '{row[columns[0]]}' has not {len(columns)} fields; quote texts with commas")
+            raise ContractError(f"{path}: the line of '{row[columns[0]]}' has not {len(columns)} fields; "
+                                "quote texts with commas")
         yield {key: value.strip() for key, value in row.items()}
 
 
@@ -118,13 +119,18 @@ def read_references(folder, mode):
     return found
 
 
+def _headings(readme):
+    if not readme.exists():
+        return set()
+    return set(re.findall(r"^#+\s*(.+?)\s*$", readme.read_text(encoding="utf-8"), re.MULTILINE))
+
+
 def read_misses(folder, mode):
     """Recorded misses; the section must be a heading of the case's README."""
     path = pathlib.Path(folder) / "misses.csv"
     if not path.exists():
         return {}
-    readme = pathlib.Path(folder) / "README.md"
-    headings = set(re.findall(r"^#+\s*(.+?)\s*$", readme.read_text(encoding="utf-8"), re.MULTILINE)) if readme.exists() else set()
+    headings = _headings(pathlib.Path(folder) / "README.md")
     found = {}
     for row in _rows(path, ["quantity", "mode", "value", "drift", "section"]):
         where = f"{path}: {row['quantity']}"

@@ -77,9 +77,8 @@ def _do_run(case, run, options, label):
         if not folder.exists():
             raise simulation.RunError(f"no earlier run in {folder}; run without --evaluate")
         return simulation.Result(run, folder)
-    if options.jobs == 1:
-        _progress(f"{label} ...")
-    result = simulation.execute(run, case.folder, folder, options.cleave, options.threads, label)
+    _progress(f"{label} ...")
+    result = simulation.execute(run, case.folder, folder, options.cleave, options.threads, label if options.jobs == 1 else None)
     _progress(f"{label} {result.wall:.1f} s")
     return result
 
@@ -145,8 +144,9 @@ def parse(arguments):
     parser.add_argument("--report", metavar="DIR", help="write an HTML page with pictures there")
     parser.add_argument("--cleave", metavar="PATH", help="the executable; else $CLEAVE, else build/release/bin/cleave")
     parser.add_argument("--work", metavar="DIR", default=str(ROOT / "build/validation"), help="where runs are made")
-    parser.add_argument("--threads", type=int, default=min(2, len(os.sched_getaffinity(0))), help="threads of a run")
-    parser.add_argument("--jobs", type=int, default=1, help="runs at the same time")
+    parser.add_argument("--jobs", type=int, default=min(2, len(os.sched_getaffinity(0))),
+                        help="runs at the same time (default: 2, or 1 on one core)")
+    parser.add_argument("--threads", type=int, default=1, help="threads of a run (default 1)")
     parser.add_argument("--evaluate", action="store_true", help="judge the results of earlier runs, run nothing")
     parser.add_argument("--cases", metavar="DIR", default=str(ROOT / "validation"), help="folder of the cases")
     return parser, parser.parse_args(arguments)
@@ -163,7 +163,8 @@ def select(parser, given, root):
 def list_cases(names, root, mode):
     for name in names:
         case = Case(pathlib.Path(root) / name, mode)
-        print(f"{name:16s} {case.title()} ({len(case.module.runs(mode))} runs, {len(case.ledger.references)} figures in --{mode})")
+        runs, expected = len(case.module.runs(mode)), len(case.ledger.references)
+        print(f"{name:16s} {case.title()} ({runs} runs, {expected} figures in --{mode})")
 
 
 def summarise(cases, strict):

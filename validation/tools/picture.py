@@ -117,7 +117,8 @@ def picture(path, out, field="damage", step="last", deform="auto", title=""):
     number = frame_number(str(step), len(result.times))
     extent = numpy.ptp(result.points[:, :2], axis=0)
     width = 10.0
-    figure, axes = plt.subplots(figsize=(width, width * extent[1] / extent[0] * 0.86 + 0.9), facecolor="white", layout="constrained")
+    size = (width, width * extent[1] / extent[0] * 0.86 + 0.9)
+    figure, axes = plt.subplots(figsize=size, facecolor="white", layout="constrained")
     drawn, factor = draw_plate(axes, result, number, field, deform)
     style(axes)
     bar = figure.colorbar(drawn, ax=axes, shrink=0.85, aspect=32, pad=0.015)

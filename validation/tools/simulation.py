@@ -69,8 +69,8 @@ def find_cleave(given, root):
     path = given or os.environ.get("CLEAVE") or str(pathlib.Path(root) / "build/release/bin/cleave")
     found = shutil.which(path)
     if found is None:
-        raise RunError(f"no executable at {path}.\nBuild it (./bootstrap build) or name it with --cleave PATH or the environment "
-                       "variable CLEAVE.")
+        raise RunError(f"no executable at {path}.\nBuild it (./bootstrap build) or name it with --cleave PATH "
+                       "or the environment variable CLEAVE.")
     return os.path.abspath(found)
 
 
@@ -79,8 +79,8 @@ def make_mesh(mesh, case_folder, folder):
     if gmsh is None:
         raise RunError("the program gmsh is not on PATH; it makes the meshes (Debian: apt-get install gmsh)")
     target = folder / mesh.file
-    command = [gmsh, f"-{mesh.dimension}", "-v", "2", "-nt", "1", str(pathlib.Path(case_folder) / mesh.geometry), *mesh.arguments(),
-               "-o", str(target)]
+    geometry = str(pathlib.Path(case_folder) / mesh.geometry)
+    command = [gmsh, f"-{mesh.dimension}", "-v", "2", "-nt", "1", geometry, *mesh.arguments(), "-o", str(target)]
     done = subprocess.run(command, capture_output=True, text=True)
     if done.returncode != 0 or not target.exists():
         raise RunError(f"gmsh failed: {' '.join(command)}\n{done.stdout}{done.stderr}")
@@ -94,21 +94,22 @@ def _last_line(log):
 
 
 def _wait(process, log, label):
-    """Waits; shows the run's own status line on a terminal."""
-    live = sys.stderr.isatty()
+    """Waits; with a label, shows the run's own status line on a terminal."""
+    live = label is not None and sys.stderr.isatty()
     while True:
         try:
             process.wait(timeout=1.0)
         except subprocess.TimeoutExpired:
             if live:
-                print(f"\r\033[K{label} {_last_line(log)}"[: shutil.get_terminal_size().columns + 4], end="", file=sys.stderr, flush=True)
+                shown = f"{label} {_last_line(log)}"[: shutil.get_terminal_size().columns]
+                print(f"\r\033[K{shown}", end="", file=sys.stderr, flush=True)
             continue
         if live:
             print("\r\033[K", end="", file=sys.stderr)
         return process.returncode
 
 
-def execute(run, case_folder, folder, cleave, threads, label=""):
+def execute(run, case_folder, folder, cleave, threads, label=None):
     """Does the run in `folder` and returns its Result."""
     folder = pathlib.Path(folder)
     if folder.exists():
@@ -125,5 +126,6 @@ def execute(run, case_folder, folder, cleave, threads, label=""):
                                    stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL)
         status = _wait(process, log, label)
     if status != 0:
-        raise RunError(f"cleave ended with {status}; the end of {log}:\n" + "\n".join(log.read_text(errors="replace").splitlines()[-12:]))
+        end = "\n".join(log.read_text(errors="replace").splitlines()[-12:])
+        raise RunError(f"cleave ended with {status}; the end of {log}:\n{end}")
     return Result(run, folder, time.monotonic() - started)

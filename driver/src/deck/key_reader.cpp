@@ -66,6 +66,13 @@ bool KeyReader::fail(Place place, const std::string& message) {
 
 void KeyReader::assign(const io::namelist::Assignment& assignment) {
   if (!given_) place_ = assignment.place;
+  for (const Value& value : assignment.values) {
+    if (!value.hidden) continue;
+    fail(value.place, title() +
+                          ": Fortran reads an empty value here, because of a comma before a "
+                          "comment or at the start of a line; remove that comma.");
+    return;
+  }
   const std::optional<Section> where = section(assignment);
   if (!where || !fits(*where, assignment.values, assignment.place)) return;
   for (std::size_t i = 0; i < count_values(assignment.values); ++i) {
@@ -81,6 +88,10 @@ void KeyReader::assign(const io::namelist::Assignment& assignment) {
 
 std::optional<KeyReader::Section> KeyReader::section(const io::namelist::Assignment& assignment) {
   const auto& subscripts = assignment.name.front().subscripts;
+  if (!assignment.name.front().substring.empty()) {
+    fail(assignment.place, title() + " takes whole texts, not parts of them.");
+    return {};
+  }
   if (subscripts.empty()) return Section{};
   if (!is_list(spec_.type)) {
     fail(assignment.place, title() + " is a single value and takes no subscript.");

@@ -7,11 +7,10 @@
 #include "run/run.hpp"
 #include "run/simulation.hpp"
 #include "scene/format.hpp"
+#include "scene/index.hpp"
 
 namespace cleave::driver {
 namespace {
-
-using Index = std::int64_t;
 
 void say(const std::string& line) { std::fputs((line + "\n").c_str(), stdout); }
 

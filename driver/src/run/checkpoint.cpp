@@ -6,14 +6,11 @@
 #include <sstream>
 
 #include "scene/format.hpp"
+#include "scene/index.hpp"
 #include "scene/unit_text.hpp"
 
 namespace cleave::driver {
 namespace {
-
-using Index = std::int64_t;
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 constexpr std::int64_t kFormat = 1;
 

@@ -24,7 +24,6 @@ struct Cursors {
 class Snapshot {
  public:
   void take(const Scene& scene, std::int64_t step, const Cursors& cursors);
-  bool empty() const { return arrays_.empty(); }
   std::int64_t step() const { return step_; }
   // Writes the checkpoint of this moment. Throws io::Error.
   void write(const std::string& path, const Scene& scene, const Clock& clock) const;

@@ -6,14 +6,11 @@
 
 #include "run/components.hpp"
 #include "scene/format.hpp"
+#include "scene/index.hpp"
 #include "scene/unit_text.hpp"
 
 namespace cleave::driver {
 namespace {
-
-using Index = std::int64_t;
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 bool in_results(const cleave_field& field) {
   return field.relation == CLEAVE_RELATION_POINT || field.relation == CLEAVE_RELATION_SIMPLEX;

@@ -7,11 +7,10 @@
 #include "io/error.hpp"
 #include "run/checkpoint_files.hpp"
 #include "scene/format.hpp"
+#include "scene/index.hpp"
 
 namespace cleave::driver {
 namespace {
-
-using Index = std::int64_t;
 
 // Both keys zero: about a thousand records a run.
 Schedule history_schedule(const Deck& deck, const Clock& clock) {

@@ -5,11 +5,10 @@
 
 #include "deck/kernel_tables.hpp"
 #include "scene/format.hpp"
+#include "scene/index.hpp"
 
 namespace cleave::driver {
 namespace {
-
-using Index = std::int64_t;
 
 std::int32_t kinematics_of(const std::string& name) {
   static const std::map<std::string, std::int32_t> values{{"3d", CLEAVE_3D},

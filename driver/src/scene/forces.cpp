@@ -4,15 +4,12 @@
 #include <cmath>
 
 #include "scene/format.hpp"
+#include "scene/index.hpp"
 #include "scene/motions.hpp"
 #include "scene/surface.hpp"
 
 namespace cleave::driver {
 namespace {
-
-using Index = std::int64_t;
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 bool is_force(const std::string& kind) {
   return kind == "force" || kind == "traction" || kind == "pressure" || kind == "body_force" ||
@@ -48,6 +45,29 @@ std::vector<double> gathered(const std::vector<double>& field,
   return values;
 }
 
+void check_keys(const Deck& deck, const DeckGroup& load) {
+  const std::string& kind = load.text("kind");
+  if (load.text("set").empty() && kind != "body_force" && kind != "gravity") {
+    deck.fail(load, "set", "kind = " + in_quotes(kind) + " needs the set it acts on");
+  }
+  if (load.given("prescription")) {
+    deck.fail(load, "prescription",
+              "prescription belongs to displacement, velocity and acceleration, not to kind = " +
+                  in_quotes(kind));
+  }
+  if (kind == "pressure" && !load.text("directions").empty()) {
+    deck.fail(load, "directions", "a pressure acts along the normal; remove directions");
+  }
+}
+
+std::vector<int> all_directions(const std::vector<BodyGeometry>& bodies,
+                                const std::vector<Selection>& selections) {
+  const bool plane = std::all_of(
+      selections.begin(), selections.end(),
+      [&](const Selection& selection) { return bodies[at(selection.body)].dimension == 2; });
+  return plane ? std::vector<int>{0, 1} : std::vector<int>{0, 1, 2};
+}
+
 }  // namespace
 
 Forces::Forces(const Deck& deck, const std::vector<BodyGeometry>& bodies, const Sets& sets,
@@ -65,65 +85,54 @@ Forces::Forces(const Deck& deck, const std::vector<BodyGeometry>& bodies, const 
   }
 }
 
+Forces::Dead Forces::dead_load(const std::string& kind, const BodyGeometry& body,
+                               const Selection& selection, const Model& model) {
+  Dead dead{selection.body, {}, {}, 0};
+  if (kind == "traction") {
+    const auto facets = surface_facets(body, selection.particles);
+    area_weights(body, facets, dead.particle, dead.weight);
+  } else {
+    const char* field = kind == "body_force" ? "averaging_volume" : "mass";
+    dead.particle = selection.particles;
+    dead.weight = gathered(model.reals(selection.body, field), selection.particles);
+  }
+  for (const double weight : dead.weight) dead.sum += weight;
+  return dead;
+}
+
 void Forces::add(const Deck& deck, const std::vector<BodyGeometry>& bodies, const Sets& sets,
                  const Model& model, const DeckGroup& group) {
   const std::string& kind = group.text("kind");
-  const bool on_all = kind == "body_force" || kind == "gravity";
-  if (group.text("set").empty() && !on_all) {
-    deck.fail(group, "set", "kind = " + in_quotes(kind) + " needs the set it acts on");
-  }
-  if (group.given("prescription")) {
-    deck.fail(group, "prescription",
-              "prescription belongs to displacement, velocity and acceleration, not to kind = " +
-                  in_quotes(kind));
-  }
+  check_keys(deck, group);
   const std::vector<Selection> selections = sets.select(group);
+  const std::vector<int> directions = kind == "pressure"
+                                          ? all_directions(bodies, selections)
+                                          : load_directions(deck, group, bodies, selections);
   Load load{group.real("value"), Curve::of_load(deck, group), {}, {}, 0};
-  std::vector<int> directions{0, 1, 2};
-  if (kind == "pressure") {
-    if (!group.text("directions").empty()) {
-      deck.fail(group, "directions", "a pressure acts along the normal; remove directions");
-    }
-    const bool plane = bodies[at(selections.front().body)].dimension == 2;
-    if (plane) directions.pop_back();
-  } else {
-    directions = load_directions(deck, group, bodies, selections);
-  }
-  double total_mass = 0;
-  Index facet_count = 0;
+  double total = 0;  // of the weights
+  std::size_t facets = 0;
   for (const Selection& selection : selections) {
     const BodyGeometry& body = bodies[at(selection.body)];
     loaded_[at(selection.body)] = 1;
     if (kind == "pressure") {
       pressed_[at(selection.body)] = 1;
       load.surfaces.push_back({selection.body, surface_facets(body, selection.particles)});
-      facet_count += static_cast<Index>(load.surfaces.back().facets.size());
-      continue;
-    }
-    Dead dead{selection.body, {}, {}, 0};
-    if (kind == "traction") {
-      const auto facets = surface_facets(body, selection.particles);
-      facet_count += static_cast<Index>(facets.size());
-      area_weights(body, facets, dead.particle, dead.weight);
+      facets += load.surfaces.back().facets.size();
     } else {
-      const char* field = kind == "body_force" ? "averaging_volume" : "mass";
-      dead.particle = selection.particles;
-      dead.weight = gathered(model.reals(selection.body, field), selection.particles);
+      load.dead.push_back(dead_load(kind, body, selection, model));
+      total += load.dead.back().sum;
     }
-    for (const double weight : dead.weight) dead.sum += weight;
-    total_mass += dead.sum;
-    load.dead.push_back(std::move(dead));
   }
-  if ((kind == "pressure" || kind == "traction") && facet_count == 0) {
+  if (total == 0 && facets == 0) {
     deck.fail(group, "set",
               "the set " + in_quotes(group.text("set")) +
                   " holds no whole facet of the surface, so a " + kind +
                   " has nothing to act on; all particles of a facet must be in the set");
   }
-  if (kind == "force") {
+  if (kind == "force") {  // a total, whatever the mass of the set
     for (Dead& dead : load.dead) {
-      for (double& weight : dead.weight) weight /= total_mass;
-      dead.sum /= total_mass;
+      for (double& weight : dead.weight) weight /= total;
+      dead.sum /= total;
     }
   }
   loads_.push_back(std::move(load));

@@ -22,8 +22,6 @@ class Forces {
 
   // Puts the forces at `time` if they differ from those put last. Does not allocate.
   void apply(Model& model, double time);
-  // The next apply() puts the forces whatever they were.
-  void forget() { fresh_ = true; }
 
   struct Resultant {
     std::string load;
@@ -53,6 +51,8 @@ class Forces {
   };
   void add(const Deck& deck, const std::vector<BodyGeometry>& bodies, const Sets& sets,
            const Model& model, const DeckGroup& group);
+  static Dead dead_load(const std::string& kind, const BodyGeometry& body,
+                        const Selection& selection, const Model& model);
   void add_dead(std::size_t load);
   void add_pressure(std::size_t load);
   void find_positions(const Model& model);

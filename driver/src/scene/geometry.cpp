@@ -10,14 +10,11 @@
 #include "io/lattice.hpp"
 #include "io/mesh.hpp"
 #include "scene/format.hpp"
+#include "scene/index.hpp"
 #include "scene/split.hpp"
 
 namespace cleave::driver {
 namespace {
-
-using Index = std::int64_t;
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 io::LatticeSpec lattice_spec(const DeckGroup& group) {
   static const std::map<std::string, io::LatticeKind> kinds{

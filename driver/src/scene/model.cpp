@@ -134,16 +134,4 @@ std::vector<std::int64_t> Model::integers(std::int64_t body, const char* name) c
   return values;
 }
 
-cleave_table_entry table_entry(std::int32_t table, std::int32_t value) {
-  std::int64_t count = 0;
-  check(cleave_table_count(table, &count));
-  cleave_table_entry entry{};
-  for (std::int64_t i = 0; i < count; ++i) {
-    entry.size = sizeof entry;
-    check(cleave_table_get(table, i, &entry));
-    if (entry.value == value) return entry;
-  }
-  return cleave_table_entry{sizeof entry, 0, "", "", ""};
-}
-
 }  // namespace cleave::driver

@@ -61,7 +61,4 @@ class Model {
   std::int64_t bodies_ = 0;
 };
 
-// A table line by enumeration value or by name; value 0 if there is none.
-cleave_table_entry table_entry(std::int32_t table, std::int32_t value);
-
 }  // namespace cleave::driver

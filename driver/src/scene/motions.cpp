@@ -4,23 +4,16 @@
 #include <map>
 
 #include "scene/format.hpp"
+#include "scene/index.hpp"
 
 namespace cleave::driver {
 namespace {
-
-using Index = std::int64_t;
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 const std::map<std::string, MotionKind>& motion_kinds() {
   static const std::map<std::string, MotionKind> kinds{{"displacement", MotionKind::displacement},
                                                        {"velocity", MotionKind::velocity},
                                                        {"acceleration", MotionKind::acceleration}};
   return kinds;
-}
-
-bool same_particle_and_direction(const std::vector<Index>& sorted, Index particle) {
-  return std::binary_search(sorted.begin(), sorted.end(), particle);
 }
 
 }  // namespace
@@ -106,7 +99,10 @@ void Motions::add(const Deck& deck, const std::vector<BodyGeometry>& bodies, con
     for (std::size_t k = 0; k < list.particle.size(); ++k) {
       const int direction = list.direction[k];
       if (std::find(directions.begin(), directions.end(), direction) == directions.end()) continue;
-      if (!same_particle_and_direction(selection.particles, list.particle[k])) continue;
+      if (!std::binary_search(selection.particles.begin(), selection.particles.end(),
+                              list.particle[k])) {
+        continue;
+      }
       deck.fail(group, "set",
                 "loads " + in_quotes(reactions_[list.load[k]].load) + " and " + in_quotes(name) +
                     " both prescribe direction " + "xyz"[direction] + " of particle " +

@@ -8,14 +8,12 @@
 #include <utility>
 
 #include "scene/format.hpp"
+#include "scene/index.hpp"
 
 namespace cleave::driver {
 namespace {
 
-using Index = std::int64_t;
 using Vector = std::array<double, 3>;
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 constexpr double kOnCrack = 1e-6;  // of the shortest bond; far above rounding, far below a bond
 

@@ -4,14 +4,11 @@
 
 #include "scene/body_options.hpp"
 #include "scene/format.hpp"
+#include "scene/index.hpp"
 #include "scene/precrack.hpp"
 
 namespace cleave::driver {
 namespace {
-
-using Index = std::int64_t;
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 void exempt(const Deck& deck, const Sets& sets, Model& model) {
   for (const DeckGroup* group : deck.all("exempt")) {

@@ -6,13 +6,10 @@
 
 #include "deck/nearest_name.hpp"
 #include "scene/format.hpp"
+#include "scene/index.hpp"
 
 namespace cleave::driver {
 namespace {
-
-using Index = std::int64_t;
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 // The region of a &zone; `margin` is added on every side.
 class Region {

@@ -6,14 +6,12 @@
 #include <set>
 
 #include "scene/format.hpp"
+#include "scene/index.hpp"
 
 namespace cleave::driver {
 namespace {
 
-using Index = std::int64_t;
 using Facet = std::array<Index, 3>;  // sorted; first entry -1 in two dimensions
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 Facet sorted_facet(const Index* nodes, int dimension) {
   Facet facet{nodes[0], nodes[1], dimension == 3 ? nodes[2] : -1};

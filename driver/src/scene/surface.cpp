@@ -4,12 +4,10 @@
 #include <array>
 #include <utility>
 
+#include "scene/index.hpp"
+
 namespace cleave::driver {
 namespace {
-
-using Index = std::int64_t;
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 struct Candidate {
   std::array<Index, 3> key;  // sorted particles; -1 first in two dimensions

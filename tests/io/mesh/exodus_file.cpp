@@ -69,7 +69,7 @@ ExodusContent exodus_plate() {
                   {30, "seam", "bar2", 2, {2, 5, 5, 8}},
                   {40, "grain", "Sphere", 1, {9}}};
   plate.node_sets = {{1, "left", {7, 1, 4}, {}}, {2, "", {9}, {}}, {3, "empty", {}, {}}};
-  // Elements are numbered through all blocks; side 3 of triangle 2 is (4,1), element 5 a quadrangle.
+  // Elements are numbered through all blocks; side 3 of triangle 2 is (4,1); element 5 is a quad.
   plate.side_sets = {{7, "outer", {1, 2, 5}, {1, 3, 2}}, {8, "", {4}, {3}}};
   return plate;
 }

@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <ostream>
 
 #include "mesh_support.hpp"
 
@@ -80,6 +81,8 @@ struct Case {
   LatticeSpec spec;
   double measure;        // closed form
   double second_length;  // longest edge, in spacings
+
+  friend void PrintTo(const Case& one, std::ostream* stream) { *stream << one.name; }
 };
 
 // n x n x n cubes. bcc: the pits between the outer body centres stay open, V = n^2 (n-1) a^3. fcc:

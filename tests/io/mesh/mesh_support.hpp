@@ -27,7 +27,7 @@ std::string error_of(const std::function<void()>& action);
 // Fails the test unless all parts occur in the message.
 void expect_error(const std::function<void()>& action, const std::vector<std::string>& parts);
 
-// Points agree to the digits of text; numbers, cells and groups exactly. Lines count only in groups.
+// Points agree to the digits of text; numbers, cells and groups exactly (lines: by group).
 void expect_same(const Mesh& a, const Mesh& b);
 
 }  // namespace cleave::io::testing

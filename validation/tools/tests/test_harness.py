@@ -61,7 +61,8 @@ class Contract(unittest.TestCase):
         return subprocess.run(command, capture_output=True, text=True, env=environment)
 
     def line(self, done, quantity):
-        found = [line.split() for line in done.stdout.splitlines() if line.startswith("made-up") and line.split()[1].startswith(quantity)]
+        lines = [line.split() for line in done.stdout.splitlines() if line.startswith("made-up")]
+        found = [words for words in lines if words[1].startswith(quantity)]
         self.assertEqual(len(found), 1, done.stdout + done.stderr)
         return found[0]
 

@@ -77,8 +77,9 @@ def write_exodus(path, side=6):
     corner = [row * side + column for row in range(side - 1) for column in range(side - 1)]
     triangles = numpy.array([t for k in corner for t in ((k, k + 1, k + side + 1), (k, k + side + 1, k + side))]) + 1
     with netCDF4.Dataset(path, "w", format="NETCDF3_64BIT_OFFSET") as file:
-        for name, size in (("num_dim", 2), ("num_nodes", len(points)), ("num_el_blk", 1), ("num_el_in_blk1", len(triangles)),
-                           ("num_nod_per_el1", 3), ("len_name", 33), ("num_nod_var", 3), ("num_elem_var", 1), ("time_step", None)):
+        sizes = {"num_dim": 2, "num_nodes": len(points), "num_el_blk": 1, "num_el_in_blk1": len(triangles),
+                 "num_nod_per_el1": 3, "len_name": 33, "num_nod_var": 3, "num_elem_var": 1, "time_step": None}
+        for name, size in sizes.items():
             file.createDimension(name, size)
         for axis in (0, 1):
             file.createVariable("coord" + "xy"[axis], "f8", ("num_nodes",))[:] = points[:, axis]
@@ -90,7 +91,8 @@ def write_exodus(path, side=6):
         file.createVariable("time_whole", "f8", ("time_step",))[:] = [0.0, 2e-6]
         fields = [1e-4 * points[:, 0], 0 * points[:, 0], points[:, 0] / points.max()]
         for number, values in enumerate(fields, 1):
-            file.createVariable(f"vals_nod_var{number}", "f8", ("time_step", "num_nodes"))[:] = numpy.array([0 * values, values])
+            frames = file.createVariable(f"vals_nod_var{number}", "f8", ("time_step", "num_nodes"))
+            frames[:] = numpy.array([0 * values, values])
         status = file.createVariable("vals_elem_var1eb1", "f8", ("time_step", "num_el_in_blk1"))
         status[:] = numpy.ones((2, len(triangles)))
         status[1, 3] = 0
