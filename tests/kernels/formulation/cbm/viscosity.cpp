@@ -160,6 +160,49 @@ TEST_P(Viscosity, RigidSpinFeelsNothing) {
   }
 }
 
+// The two central forms written out, on a state where many ends are turned inside out: these ends do
+// not contribute.
+TEST_P(Viscosity, CentralFormsAreTheirFormulasWithInvertedEndsLeftOut) {
+  const State s(GetParam(), 1.0);
+  const auto frozen = s.force(Form::frozen), central = s.force(Form::central);
+  std::vector<double> f(frozen.size(), 0.0), g(frozen.size(), 0.0);
+  int half_inverted = 0;
+  for (std::int64_t i = 0; i < s.mesh.particles(); ++i)
+    for (std::int64_t half = s.bonds.row_begin[at(i)]; half < s.bonds.row_begin[at(i + 1)];
+         ++half) {
+      const std::int64_t ends[2] = {i, s.bonds.neighbour[at(half)]};
+      const std::int64_t halves[2] = {half, s.bonds.reverse[at(half)]};
+      double dx[3], vx = 0, xx = 0, weight = 0, area = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        dx[k] = s.x[at(3 * ends[1]) + k] - s.x[at(3 * i) + k];
+        vx += (s.v[at(3 * ends[1]) + k] - s.v[at(3 * i) + k]) * dx[k];
+        xx += dx[k] * dx[k];
+      }
+      for (int e = 0; e < 2; ++e) {
+        const std::size_t q = at(ends[e]), z = at(halves[e]);
+        if (!(s.J[q] > 0)) continue;
+        weight += s.w[z] * s.J[q];
+        const Matrix3 F = inverse(State::full(s.h, q));
+        for (std::size_t r = 0; r < 3; ++r)
+          for (std::size_t c = 0; c < 3; ++c)
+            area += (e == 0 ? 1 : -1) * s.J[q] * F[c][r] * s.bonds.zeta[3 * z + c] * dx[r];
+      }
+      const double pressure = kCoefficient * kLength * vx / (xx + 0.01 * kLength * kLength);
+      for (std::size_t k = 0; k < 3; ++k) {
+        f[at(3 * i) + k] += pressure * weight * dx[k] / xx;
+        g[at(3 * i) + k] += pressure * std::fmax(0.0, area) * dx[k] / xx;
+      }
+      half_inverted += s.J[at(i)] < 0 && s.J[at(ends[1])] > 0 ? 1 : 0;
+    }
+  EXPECT_GT(half_inverted, 20);
+  double size = 0;
+  for (const double c : frozen) size = std::fmax(size, std::fabs(c));
+  for (std::size_t k = 0; k < f.size(); ++k) {
+    EXPECT_NEAR(frozen[k], f[k], 1e-13 * size);
+    EXPECT_NEAR(central[k], g[k], 1e-13 * size);
+  }
+}
+
 // [CBM 21-23] with F^-T solved for, entering the balance as + sum fAV.
 TEST_P(Viscosity, PaperFormIsThePublishedOneAddedWithPlus) {
   const State s(GetParam(), 0.15);
