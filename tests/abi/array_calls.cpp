@@ -120,6 +120,36 @@ TEST_P(ArrayCalls, DisjointRangesFromSeveralThreadsGiveTheSerialBits) {
   EXPECT_EQ(viscous2, viscous);
 }
 
+TEST_P(ArrayCalls, TouchOnlyTheRowsOfTheirRange) {
+  const SimplexMesh m = mesh();
+  const Bonds b(m);
+  const auto u = random_vectors(m, 5e-4, 7);
+  const auto H = b.gradient(u);
+  const auto s = stress(CLEAVE_MATERIAL_svk, GetParam(), kProperties, H);
+  const std::size_t n = b.volume.size();
+  const int64_t first = 20, last = 50;
+  std::vector<double> H2(9 * n, 7.0), P2(9 * n, 7.0), energy2(n, 7.0), f(3 * n, 7.0);
+  std::vector<int32_t> failed(n, 7);
+  ok(cleave_displacement_gradient(dimension(), first, last, b.row_begin.data(), b.neighbour.data(),
+                                  b.zeta.data(), b.volume.data(), u.data(), H2.data()));
+  ok(cleave_material_stress(CLEAVE_MATERIAL_svk, GetParam(), 3, kProperties.data(), first, last,
+                            H.data(), nullptr, P2.data(), energy2.data(), failed.data()));
+  const auto w = b.weights();
+  ok(cleave_bond_viscosity(dimension(), first, last, b.row_begin.data(), b.neighbour.data(),
+                           b.reverse.data(), w.data(), m.X.data(), u.data(), b.volume.data(), 1.0,
+                           0.01, f.data()));
+  for (std::size_t i = 0; i < n; ++i) {
+    const bool inside = static_cast<int64_t>(i) >= first && static_cast<int64_t>(i) < last;
+    EXPECT_EQ(energy2[i], inside ? s.energy[i] : 7.0);
+    EXPECT_EQ(failed[i], inside ? 0 : 7);
+    EXPECT_EQ(f[3 * i] == 7.0, !inside);
+    for (std::size_t k = 9 * i; k < 9 * i + 9; ++k) {
+      EXPECT_EQ(H2[k], inside ? H[k] : 7.0);
+      EXPECT_EQ(P2[k], inside ? s.P[k] : 7.0);
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Kinematics, ArrayCalls,
                          testing::Values(CLEAVE_3D, CLEAVE_PLANE_STRAIN, CLEAVE_PLANE_STRESS),
                          [](const auto& which) {

@@ -7,6 +7,7 @@ broken tree, so that every rule here has been seen to fail.
 import fnmatch
 import os
 import re
+import shutil
 import subprocess
 
 TEXT = ("*.c *.h *.cpp *.hpp *.def *.in *.f90 *.f *.inc *.py *.md *.txt *.cmake *.json *.nml *.geo "
@@ -89,10 +90,11 @@ def _argument(text):
 
 def _listed(root):
     """What git tracks or would track; without git, everything but build and run folders."""
-    git = subprocess.run(["git", "-C", root, "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
-                         capture_output=True, text=True, check=False)
-    if git.returncode == 0 and git.stdout:
-        return [path for path in git.stdout.split("\0") if path and os.path.isfile(os.path.join(root, path))]
+    if shutil.which("git"):
+        git = subprocess.run(["git", "-C", root, "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
+                             capture_output=True, text=True, check=False)
+        if git.returncode == 0 and git.stdout:
+            return [path for path in git.stdout.split("\0") if path and os.path.isfile(os.path.join(root, path))]
     found = []
     for folder, below, names in os.walk(root):
         below[:] = [name for name in below if name not in ("build", "runs", ".git", "__pycache__")]

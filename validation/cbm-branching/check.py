@@ -126,12 +126,11 @@ def panels(case, file):
         axes.set_axis_off()
     for (name, result), axes in zip(case.results.items(), grid.flat):
         frame = frame_at_arrival(result, spacing_of(case.mode))
-        picture.draw_plate(axes, result.exodus, frame, "damage", "5")
+        picture.draw_plate(axes, result.exodus, frame, "damage", "5", edge=0.5)
         axes.set(xticks=[], yticks=[], xlabel="", ylabel="")
         time = picture.time_text(result.exodus.times[frame])
         axes.set_title(f"{name}   t = {time}", fontsize=11, loc="left", color=picture.INK)
-    figure.savefig(file, dpi=110)
-    plt.close(figure)
+    picture.save(figure, file, dpi=110)
 
 
 def tip_figure(case, file):
@@ -145,8 +144,7 @@ def tip_figure(case, file):
             axes.plot([reference.value], [WIDTH * 1e3], "x", ms=9, mew=2, color=line.get_color())
     axes.set(xlabel="time (µs)", ylabel="foremost tip x (mm)")
     axes.legend(title="run")
-    figure.savefig(file, dpi=130)
-    plt.close(figure)
+    picture.save(figure, file, dpi=130)
 
 
 def energy_figure(case, file):
@@ -157,5 +155,4 @@ def energy_figure(case, file):
     axes.plot(history["time"] * 1e6, history["external"] + history["reaction"], "k--", label="work of the edges")
     axes.set(xlabel="time (µs)", ylabel="energy (J/m)")
     axes.legend()
-    figure.savefig(file, dpi=130)
-    plt.close(figure)
+    picture.save(figure, file, dpi=130)

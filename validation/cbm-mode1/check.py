@@ -66,8 +66,7 @@ def pictures(case, folder):
         axes.plot(history["time"] * 1e6, dissipated_part(history), lw=1.5, label=f"1/{part} mm")
     axes.set(xlabel="time (µs)", ylabel="dissipated energy / total energy at the end", ylim=(0, 1))
     axes.legend(title="spacing")
-    figure.savefig(folder / "figure.png", dpi=130)
-    plt.close(figure)
+    picture.save(figure, folder / "figure.png", dpi=130)
     made = [("figure.png", "Fig. 12: dissipated energy over the total energy at the end")]
     for part in PARTS[case.mode]:
         file = f"crack-l{part}.png"

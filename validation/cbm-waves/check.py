@@ -9,6 +9,7 @@ import math
 import matplotlib.pyplot as plt
 import numpy
 from matplotlib.ticker import NullLocator
+from tools import picture
 from tools.simulation import Mesh, Run
 
 DENSITY, YOUNG, POISSON = 2700.0, 70e9, 0.3
@@ -160,8 +161,7 @@ def pictures(case, folder):
     figure, (profiles, convergence) = plt.subplots(1, 2, figsize=(11, 4.6), layout="constrained")
     draw_profiles(case, profiles)
     draw_convergence(case, convergence)
-    figure.savefig(folder / "figure.png", dpi=130)
-    plt.close(figure)
+    picture.save(figure, folder / "figure.png", dpi=130)
     return [("figure.png", "Plane waves: profiles against the exact solution, and convergence")]
 
 

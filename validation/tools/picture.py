@@ -22,6 +22,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy  # noqa: E402
 from matplotlib.colors import LinearSegmentedColormap, Normalize  # noqa: E402
 from matplotlib.ticker import MaxNLocator, MultipleLocator  # noqa: E402
+from PIL import Image  # noqa: E402
 from tools import results  # noqa: E402
 
 # Sound material pale on a dark ground, torn material glowing: the crack must be seen at thumbnail size.
@@ -66,8 +67,11 @@ def length_unit(size):
     return next(((1 / scale, name) for scale, name in ((1, "m"), (1e-3, "mm"), (1e-6, "um")) if size >= scale), (1, ""))
 
 
-def draw_plate(axes, result, step, field, deform):
-    """The plate in the axes; returns the drawn collection and the magnification."""
+def draw_plate(axes, result, step, field, deform, edge=0.12):
+    """The plate in the axes; returns the drawn collection and the magnification.
+
+    `edge` is the width of the triangles' own-coloured edges: thin ones let the mesh shine through, wide ones hide it.
+    """
     points, displacement = result.points[:, :2], result.displacement(step)[:, :2]
     factor = magnification(points, displacement, deform)
     scale, unit = length_unit(numpy.ptp(points, axis=0).max())
@@ -75,9 +79,8 @@ def draw_plate(axes, result, step, field, deform):
     cmap, norm = colours(field, values)
     shown = scale * (points + factor * displacement)
     live = result.simplices[result.alive(step)]
-    # flat triangles, joined by an edge of their own colour: no hairlines between neighbours
     drawn = axes.tripcolor(shown[:, 0], shown[:, 1], live, facecolors=values[live].mean(axis=1), cmap=cmap, norm=norm,
-                           edgecolors="face", linewidth=0.12)
+                           edgecolors="face", linewidth=edge)
     axes.set_aspect("equal")
     axes.set_facecolor(GROUND)
     # a fragment that flies off does not shrink the plate
@@ -109,6 +112,16 @@ def style(axes):
     axes.yaxis.label.set_color(INK)
 
 
+def save(figure, out, dpi):
+    """Writes and closes a figure; a PNG is reduced to 256 colours, a quarter of its size."""
+    figure.savefig(out, dpi=dpi, bbox_inches="tight", pad_inches=0.12)
+    plt.close(figure)
+    if str(out).lower().endswith(".png"):
+        with Image.open(out) as image:
+            small = image.convert("RGB").quantize(256, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)
+        small.save(out, optimize=True)
+
+
 def picture(path, out, field="damage", step="last", deform="auto", title=""):
     """Writes one picture of a result file."""
     result = results.Exodus(path)
@@ -128,8 +141,7 @@ def picture(path, out, field="damage", step="last", deform="auto", title=""):
     if factor != 1:
         words.append(f"displacements × {factor:g}")
     axes.set_title("   ".join(words), color=INK, fontsize=12, loc="left")
-    figure.savefig(out, dpi=160, bbox_inches="tight", pad_inches=0.12)
-    plt.close(figure)
+    save(figure, out, dpi=160)
 
 
 def main():

@@ -289,27 +289,28 @@ TEST(ViscosityOfTheModel, HasTheCoefficientComputedByHand) {
 }
 
 TEST(ViscosityOfTheModel, LocalLengthIsThatOfEachBond) {
-  // Edge of length 2h, constant l = h against local l = 2h: by hand as above.
+  // Corner 2 moves along edge 2-3 of length 2h, whose triangle has area h^2: by hand as above for
+  // corner 3, with constant l = h and local l = 2h. No other bond is that long.
   const double h = 0.02, speed = 3.0;
-  SimplexMesh rectangle;
-  rectangle.X = {0, 0, 0, 2 * h, 0, 0, 2 * h, h, 0, 0, h, 0};
-  rectangle.simplices = {0, 1, 2, 0, 2, 3};
+  SimplexMesh trapezium;
+  trapezium.X = {0.5 * h, 0, 0, 2 * h, 0, 0, 2 * h, h, 0, 0, h, 0};
+  trapezium.simplices = {0, 1, 2, 0, 2, 3};
   const double c0 = std::sqrt(3.24e9 / (1190 * (1 - 0.35 * 0.35)));
   for (const char* length_mode : {"constant", "local"}) {
     Model model;
-    model.add({CLEAVE_FORMULATION_cbm, CLEAVE_MATERIAL_svk, CLEAVE_PLANE_STRESS}, rectangle,
+    model.add({CLEAVE_FORMULATION_cbm, CLEAVE_MATERIAL_svk, CLEAVE_PLANE_STRESS}, trapezium,
               {{"viscosity", "beta", 1.0},
                {"viscosity", "length_mode", 0, length_mode},
                {"viscosity", "length", h}});
     model.setup();
     std::vector<double> v(12, 0.0);
-    v[3] = speed;
+    v[6] = speed;
     model.put("velocity", v);
     model.initialise();
-    const double l = std::string(length_mode) == "local" ? 2 * h : h, X = 2 * h, area = X * h / 2;
+    const double l = std::string(length_mode) == "local" ? 2 * h : h, X = 2 * h, area = h * h;
     const double rate = speed * X / (X * X + 0.01 * l * l);
     const double expected = 1190 * c0 * l * rate * (2 * area / 3) / X;
-    EXPECT_NEAR(model.real("viscous_force")[0], expected, 1e-13 * expected) << length_mode;
+    EXPECT_NEAR(model.real("viscous_force")[9], expected, 1e-13 * expected) << length_mode;
   }
 }
 
