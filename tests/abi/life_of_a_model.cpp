@@ -240,8 +240,8 @@ TEST(Life, MeshesThatMakeNoSenseAreRefusedAtSetUp) {
   SimplexMesh lonely = plate();
   lonely.X.insert(lonely.X.end(), {1, 1, 0});
   EXPECT_EQ(set_up(lonely, CLEAVE_PLANE_STRESS), CLEAVE_BAD_SIMPLEX);
-  EXPECT_NE(last_message().find("particle 25 belongs to no simplex"), std::string::npos)
-      << last_message();
+  for (const char* part : {"particle 25", "belongs to no simplex"})
+    EXPECT_NE(last_message().find(part), std::string::npos) << last_message();
   SimplexMesh none = plate();
   none.simplices.clear();
   EXPECT_EQ(set_up(none, CLEAVE_PLANE_STRESS), CLEAVE_BAD_SIMPLEX);

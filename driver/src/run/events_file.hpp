@@ -17,6 +17,7 @@ class EventsFile {
   // Takes the events of the last step from the model.
   void collect(const Scene& scene, Model& model);
   void flush() { table_->flush(); }
+  void sync() { table_->sync(); }
   std::int64_t records() const { return table_->records(); }
 
  private:

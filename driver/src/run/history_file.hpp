@@ -24,6 +24,7 @@ class HistoryFile {
   void reopen(const FileNames& names, const Scene& scene, std::int64_t records);
   void write(Scene& scene, std::int64_t step, double time, const cleave_energies& energies);
   void flush() { table_->flush(); }
+  void sync() { table_->sync(); }
   std::int64_t records() const { return table_->records(); }
 
  private:

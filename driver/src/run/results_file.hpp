@@ -20,6 +20,7 @@ class ResultsFile {
   // Continues after `frames` frames.
   void reopen(const std::string& path, std::int64_t frames);
   void write_frame(const Scene& scene, double time, const cleave_energies& energies);
+  void sync() { writer_->sync(); }
   std::int64_t frames() const { return writer_ ? writer_->frames() : 0; }
 
  private:

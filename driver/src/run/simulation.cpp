@@ -179,8 +179,10 @@ cleave_energies Simulation::finite_energies(Index step) const {
 
 void Simulation::write_checkpoint(Index step) {
   finite_energies(step);
-  events_.flush();
-  history_.flush();
+  // The checkpoint counts on these records: they must be on the disk before it is.
+  events_.sync();
+  history_.sync();
+  results_.sync();
   good_.take(scene_, step, cursors());
   newest_checkpoint_ = names_.checkpoint(step);
   good_.write(newest_checkpoint_, scene_, step_.clock);

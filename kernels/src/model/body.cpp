@@ -40,6 +40,11 @@ Body::Body(const cleave_body_spec& spec, int body_index)
   }
 }
 
+std::string Body::particle_label(std::int64_t i) const {
+  const double* X = point.X + kVector * i;
+  return text("particle ", i, " (at X = ", X[0], ", ", X[1], ", ", X[2], ")");
+}
+
 ParameterSet& Body::group(std::string_view group_name) {
   if (group_name == "material") return material_parameters;
   std::string known = "material";

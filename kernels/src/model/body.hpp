@@ -36,6 +36,8 @@ struct Body {
   Body(const cleave_body_spec& spec, int index);
 
   std::string label() const { return text("body ", index, " '", name, "'"); }
+  // A particle for messages: its index and where it was in the reference configuration.
+  std::string particle_label(std::int64_t i) const;
   int dimension() const { return dimension_of(kinematics); }
   ParameterSet& group(std::string_view group_name);
   const ParameterSet& group(std::string_view group_name) const;

@@ -128,8 +128,9 @@ void check_finite(Body& body, const Clock& clock) {
       if (std::isfinite(f.real[k])) continue;
       const std::size_t i = k / static_cast<std::size_t>(f.spec.components);
       throw Error(CLEAVE_NOT_FINITE,
-                  text(body.label(), ": field ", name, " of particle ", i,
-                       " is not finite at step ", clock.step, ", time ", clock.time,
+                  text(body.label(), ": field ", name, " of ",
+                       body.particle_label(static_cast<std::int64_t>(i)), " is not finite at step ",
+                       clock.step, ", time ", clock.time,
                        "; a smaller step, viscosity or stabilisation may help"));
     }
   }

@@ -133,8 +133,8 @@ void ContinuumBondMethod::stresses(Body& body, int threads) {
   for (const std::int64_t i : failed_) {
     if (i < 0) continue;
     throw Error(CLEAVE_BAD_JACOBIAN,
-                text(body.label(), ": law ", body.law->name, " has no answer at particle ", i,
-                     " (det F = ", body.point.ratio[i],
+                text(body.label(), ": law ", body.law->name, " has no answer at ",
+                     body.particle_label(i), " (det F = ", body.point.ratio[i],
                      "); the deformation is outside its range: use a smaller step, "
                      "stabilisation, or another law"));
   }

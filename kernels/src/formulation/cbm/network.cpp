@@ -56,7 +56,7 @@ void Network::check_simplices(const Body& body) const {
     if (incidence.begin[static_cast<std::size_t>(i)] ==
         incidence.begin[static_cast<std::size_t>(i + 1)]) {
       throw Error(CLEAVE_BAD_SIMPLEX,
-                  text(body.label(), ": particle ", i,
+                  text(body.label(), ": ", body.particle_label(i),
                        " belongs to no simplex, so it has no mass; leave it out"));
     }
   }
