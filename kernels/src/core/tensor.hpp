@@ -7,9 +7,10 @@
 
 namespace cleave {
 
-// Stride of vectors and tensors in arrays: always three and nine, whatever the dimension.
-inline constexpr int kVector = 3;
-inline constexpr int kTensor = 9;
+// Stride of vectors and tensors in arrays: always three and nine, whatever the dimension. 64 bits, so
+// that products with 32-bit indices are.
+inline constexpr std::int64_t kVector = 3;
+inline constexpr std::int64_t kTensor = 9;
 
 // Place of component (i,j) in an array tensor: 11 21 31 12 22 32 13 23 33, Fortran's t(3,3).
 constexpr int component(int i, int j) { return i + 3 * j; }

@@ -11,9 +11,9 @@
 #include "core/error.hpp"
 #include "core/field_store.hpp"
 #include "core/parameter.hpp"
-#include "formulation/formulation.hpp"
 #include "material/material.hpp"
 #include "material/stress.hpp"
+#include "model/formulation.hpp"
 #include "model/ledger.hpp"
 
 namespace cleave {

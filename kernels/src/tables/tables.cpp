@@ -27,34 +27,24 @@ constexpr std::array kGroups = {
 #include "tables/groups.def"
 };
 
-#define CLEAVE_FIELD(name, relation, components, type, units, lifetime, exchange, output, rebuild, \
-                     description)                                                                  \
-  FieldSpec{#name,                                                                                 \
-            CLEAVE_RELATION_##relation,                                                            \
-            components,                                                                            \
-            CLEAVE_##type,                                                                         \
-            units,                                                                                 \
-            CLEAVE_LIFETIME_##lifetime,                                                            \
-            Exchange::exchange,                                                                    \
-            output != 0,                                                                           \
-            rebuild,                                                                               \
+#define CLEAVE_FIELD_SPEC(name, relation, components, type, units, lifetime, exchange, output, \
+                          rebuild, description)                                                \
+  FieldSpec{#name,                                                                             \
+            CLEAVE_RELATION_##relation,                                                        \
+            components,                                                                        \
+            CLEAVE_##type,                                                                     \
+            units,                                                                             \
+            CLEAVE_LIFETIME_##lifetime,                                                        \
+            Exchange::exchange,                                                                \
+            output != 0,                                                                       \
+            rebuild,                                                                           \
             description},
 constexpr std::array kCoreFields = {
+#define CLEAVE_FIELD CLEAVE_FIELD_SPEC
 #include "tables/fields.def"
 };
-#define CLEAVE_FIELD(name, relation, components, type, units, lifetime, exchange, output, rebuild, \
-                     description)                                                                  \
-  FieldSpec{#name,                                                                                 \
-            CLEAVE_RELATION_##relation,                                                            \
-            components,                                                                            \
-            CLEAVE_##type,                                                                         \
-            units,                                                                                 \
-            CLEAVE_LIFETIME_##lifetime,                                                            \
-            Exchange::exchange,                                                                    \
-            output != 0,                                                                           \
-            rebuild,                                                                               \
-            description},
 constexpr std::array kCbmFields = {
+#define CLEAVE_FIELD CLEAVE_FIELD_SPEC
 #include "formulation/cbm/fields.def"
 };
 

@@ -8,8 +8,8 @@
 #include "core/blocks.hpp"
 #include "core/error.hpp"
 #include "formulation/cbm/simplices.hpp"
-#include "formulation/formulation.hpp"
 #include "model/body.hpp"
+#include "model/formulation.hpp"
 
 namespace cleave {
 

@@ -17,7 +17,7 @@ enum BondStatus : std::int32_t { kIntact = 0, kBroken = 1, kInert = 2 };
 
 class Network {
  public:
-  static constexpr int kStride = 4;  // of `corners`
+  static constexpr std::int64_t kStride = 4;  // of `corners`
 
   // Finds the bonds, allocates the fields of simplices and bonds, fills those of lifetime setup
   // except critical strains, and builds all rows. Throws BAD_SIMPLEX.

@@ -53,7 +53,7 @@ class Formulation {
   virtual std::int64_t bytes() const = 0;
 };
 
-// Throws UNKNOWN_NAME with the known formulations.
+// Defined in formulation/formulations.cpp. Throws UNKNOWN_NAME with the known formulations.
 std::unique_ptr<Formulation> make_formulation(std::int32_t value);
 
 }  // namespace cleave

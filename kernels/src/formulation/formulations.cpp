@@ -1,26 +1,18 @@
-#include "formulation/formulation.hpp"
-
+// The formulations table as objects: the one file that knows every formulation's class.
 #include "core/error.hpp"
 #include "formulation/cbm/cbm.hpp"
-#include "tables/tables.hpp"
+#include "model/formulation.hpp"
 
 namespace cleave {
 
 using cbm::ContinuumBondMethod;
 
 std::unique_ptr<Formulation> make_formulation(std::int32_t value) {
-  switch (value) {
-#define CLEAVE_FORMULATION(name, number, type, title, source) \
-  case number:                                                \
-    return std::make_unique<type>();
-#include "cleave/tables/formulations.def"
-    default:
-      break;
-  }
   std::string known;
-  for (const auto& f : formulation_table()) {
-    known += text(known.empty() ? "" : ", ", f.name, " = ", f.value);
-  }
+#define CLEAVE_FORMULATION(name, number, type, title, source) \
+  if (value == number) return std::make_unique<type>();       \
+  known += text(known.empty() ? "" : ", ", #name, " = ", number);
+#include "cleave/tables/formulations.def"
   throw Error(CLEAVE_UNKNOWN_NAME,
               text("formulation ", value, " is unknown; known formulations: ", known));
 }
