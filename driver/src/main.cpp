@@ -10,6 +10,7 @@
 #include "command/info.hpp"
 #include "command/keys.hpp"
 #include "command/tables.hpp"
+#include "command/waiting_threads.hpp"
 #include "deck/nearest_name.hpp"
 #include "io/error.hpp"
 #include "io/namelist.hpp"
@@ -177,6 +178,7 @@ int report(int code, const std::string& message) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  let_waiting_threads_sleep(argv);
   try {
     return run_command_line(argc, argv);
   } catch (const DeckError& error) {
