@@ -5,7 +5,7 @@ A case that has a study offers study.py with RUNS (name -> simulation.Run), COLU
 import argparse
 import pathlib
 
-from . import simulation
+from . import deck, simulation
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
@@ -28,5 +28,5 @@ def main(folder, runs, columns, row):
             place = pathlib.Path(given.work) / pathlib.Path(folder).name / runs[name].name
             result = simulation.execute(runs[name], folder, place, cleave, given.threads, name)
             print(f"| {name} | " + " | ".join(row(result)) + " |", flush=True)
-    except simulation.RunError as error:
+    except (simulation.RunError, deck.DeckError) as error:
         parser.exit(1, f"{error}\n")
