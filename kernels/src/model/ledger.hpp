@@ -16,9 +16,7 @@ enum Entry {
   kStartTotal,      // kinetic + stored at the start
   kStartStaggered,  // kinetic_staggered at the start
   kLastStep,        // size of the last step [s]
-  kSpare0,
-  kSpare1,
-  kCount
+  kCount            // components of the field
 };
 
 }  // namespace cleave::ledger
