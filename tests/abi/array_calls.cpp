@@ -38,7 +38,7 @@ TEST_P(ArrayCalls, HaveTheBitsOfTheModelAfterBreaking) {
   const auto alive = model.integer("simplex_alive");
   const Bonds b(m, std::vector<std::int32_t>(alive.begin(), alive.end()));
   EXPECT_EQ(model.real("bond_vector"), b.zeta);
-  EXPECT_EQ(model.real("averaging_volume"), b.volume);
+  EXPECT_EQ(model.real("volume"), b.volume);
   EXPECT_EQ(model.real("bond_weight"), b.weights());
   const auto H = b.gradient(model.real("displacement"));
   EXPECT_EQ(model.real("displacement_gradient"), H);

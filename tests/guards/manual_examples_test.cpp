@@ -27,15 +27,15 @@ Mat<D> random_gradient(std::mt19937_64& engine) {
 template <int D>
 double worst_gradient_error(const NeoHooke& law, Mat<D> h) {
   constexpr double step = 1e-6;
-  const Mat<D> stress = law.respond(h, History{}).stress;
+  const Mat<D> stress = law.respond(h, History{}, Increment{}).stress;
   double worst = 0;
   for (int i = 0; i < D; ++i) {
     for (int j = 0; j < D; ++j) {
       const double h0 = h(i, j);
       h(i, j) = h0 + step;
-      const double above = law.respond(h, History{}).energy;
+      const double above = law.respond(h, History{}, Increment{}).energy;
       h(i, j) = h0 - step;
-      const double below = law.respond(h, History{}).energy;
+      const double below = law.respond(h, History{}, Increment{}).energy;
       h(i, j) = h0;
       worst = std::fmax(worst, std::fabs((above - below) / (2 * step) - stress(i, j)));
     }
@@ -45,7 +45,7 @@ double worst_gradient_error(const NeoHooke& law, Mat<D> h) {
 
 TEST(NeoHookeExample, HasNoStressAtRest) {
   const NeoHooke law(kProperties, CLEAVE_3D);
-  const auto r = law.respond(Mat<3>{}, History{});
+  const auto r = law.respond(Mat<3>{}, History{}, Increment{});
   EXPECT_TRUE(r.valid);
   EXPECT_EQ(r.energy, 0.0);
   EXPECT_EQ(contract(r.stress, r.stress), 0.0);
@@ -66,8 +66,10 @@ TEST(NeoHookeExample, StressIsTheDerivativeOfTheEnergy) {
 TEST(NeoHookeExample, RefusesInversionAndPlaneStress) {
   Mat<2> inverted;
   inverted(0, 0) = -1.5;
-  EXPECT_FALSE(NeoHooke(kProperties, CLEAVE_PLANE_STRAIN).respond(inverted, History{}).valid);
-  EXPECT_FALSE(NeoHooke(kProperties, CLEAVE_PLANE_STRESS).respond(Mat<2>{}, History{}).valid);
+  EXPECT_FALSE(
+      NeoHooke(kProperties, CLEAVE_PLANE_STRAIN).respond(inverted, History{}, Increment{}).valid);
+  EXPECT_FALSE(
+      NeoHooke(kProperties, CLEAVE_PLANE_STRESS).respond(Mat<2>{}, History{}, Increment{}).valid);
 }
 
 // A strip of jittered triangles with the example in place of the formulation of the body.
@@ -109,7 +111,7 @@ class LinearSimplicesExample : public testing::Test {
     body_->point.u[3 * particle + direction] += amount;
   }
   double energy() {
-    body_->formulation->deform(*body_, 1);
+    body_->formulation->deform(*body_, {}, 1);
     return body_->formulation->stored_energy(*body_).elastic;
   }
 
@@ -123,7 +125,7 @@ TEST_F(LinearSimplicesExample, ForceIsMinusTheGradientOfTheEnergy) {
   std::uniform_real_distribution<double> uniform(-0.05, 0.05);
   for (int i = 0; i < kColumns * kRows; ++i)
     for (int k = 0; k < 2; ++k) displace(i, k, uniform(engine_));
-  body_->formulation->deform(*body_, 2);
+  body_->formulation->deform(*body_, {}, 2);
   body_->formulation->forces(*body_, 2);
   constexpr double step = 1e-6;
   double worst = 0, largest = 0;

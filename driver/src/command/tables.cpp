@@ -21,6 +21,8 @@ const char* relation_text(std::int32_t relation) {
       return "bond";
     case CLEAVE_RELATION_SIMPLEX:
       return "simplex";
+    case CLEAVE_RELATION_INTEGRATION_POINT:
+      return "integration point";
     case CLEAVE_RELATION_HALF_BOND:
       return "half-bond";
     default:

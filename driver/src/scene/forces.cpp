@@ -92,9 +92,12 @@ Forces::Dead Forces::dead_load(const std::string& kind, const BodyGeometry& body
     const auto facets = surface_facets(body, selection.particles);
     area_weights(body, facets, dead.particle, dead.weight);
   } else {
-    const char* field = kind == "body_force" ? "averaging_volume" : "mass";
     dead.particle = selection.particles;
-    dead.weight = gathered(model.reals(selection.body, field), selection.particles);
+    dead.weight = gathered(model.reals(selection.body, "mass"), selection.particles);
+    if (kind == "body_force") {
+      const double density = model.property(selection.body, "rho");
+      for (double& weight : dead.weight) weight /= density;
+    }
   }
   for (const double weight : dead.weight) dead.sum += weight;
   return dead;

@@ -41,6 +41,12 @@ double Model::wave_speed(std::int64_t body) const {
   return speed;
 }
 
+double Model::property(std::int64_t body, const char* name) const {
+  double value = 0;
+  check(cleave_body_get_real(handle(), body, "material", name, &value));
+  return value;
+}
+
 std::int64_t Model::memory() const {
   std::int64_t bytes = 0;
   check(cleave_model_memory(handle(), &bytes));

@@ -41,6 +41,8 @@ class Model {
   cleave_counts counts(std::int64_t body) const;
   cleave_counts total_counts() const;
 
+  // A property of the material of a body.
+  double property(std::int64_t body, const char* name) const;
   std::vector<cleave_field> fields(std::int64_t body) const;
   std::optional<cleave_field> find_field(std::int64_t body, const std::string& name) const;
   // Whole fields: values has count * components entries.

@@ -75,11 +75,14 @@ enum cleave_table {
 enum cleave_type { CLEAVE_REAL = 1, CLEAVE_INTEGER = 2, CLEAVE_CHOICE = 3 };
 
 enum cleave_relation {
-  CLEAVE_RELATION_BODY = 1,     /* one value a body */
-  CLEAVE_RELATION_POINT = 2,    /* a particle */
-  CLEAVE_RELATION_BOND = 3,     /* an undirected bond */
-  CLEAVE_RELATION_SIMPLEX = 4,  /* a triangle or tetrahedron */
-  CLEAVE_RELATION_HALF_BOND = 5 /* a bond seen from one end: twice the bonds */
+  CLEAVE_RELATION_BODY = 1,      /* one value a body */
+  CLEAVE_RELATION_POINT = 2,     /* a particle */
+  CLEAVE_RELATION_BOND = 3,      /* an undirected bond */
+  CLEAVE_RELATION_SIMPLEX = 4,   /* a triangle or tetrahedron */
+  CLEAVE_RELATION_HALF_BOND = 5, /* a bond seen from one end: twice the bonds */
+  /* A point where the stress is evaluated.  Where these are the particles themselves, a body's
+   * fields say CLEAVE_RELATION_POINT; finite elements have their own, element by element. */
+  CLEAVE_RELATION_INTEGRATION_POINT = 6
 };
 
 enum cleave_lifetime {
@@ -259,14 +262,14 @@ CLEAVE_API int32_t cleave_model_set_threads(cleave_model* model, int32_t threads
 
 typedef struct cleave_body_spec {
   int64_t size;
-  int32_t formulation; /* enum cleave_formulation */
-  int32_t kinematics;  /* enum cleave_kinematics */
-  int32_t material;    /* enum cleave_material */
-  int32_t reserved;
+  int32_t formulation;      /* enum cleave_formulation */
+  int32_t kinematics;       /* enum cleave_kinematics */
+  int32_t material;         /* enum cleave_material */
+  int32_t simplex_nodes;    /* particles of a simplex; 0: dim+1; 6: six-node triangles (fem) */
   int64_t particles;        /* n > 0 */
   const double* X;          /* (3,n) reference position [m]; copied */
   int64_t simplex_count;    /* m >= 0 */
-  const int64_t* simplices; /* (dim+1,m) 0-based; copied; orientation is free */
+  const int64_t* simplices; /* (simplex_nodes,m) 0-based; copied; orientation is free */
   const char* name;         /* used in messages; copied */
 } cleave_body_spec;
 CLEAVE_API int32_t cleave_body_spec_init(cleave_body_spec* spec);

@@ -202,11 +202,16 @@ int32_t cleave_material_stress(int32_t material, int32_t kinematics, int64_t pro
     check_rows(first, last);
     required(H, "H");
     const Material made = make_checked(material, kinematics, property_count, properties);
-    const HistoryArrays arrays = packed_history(find_material(material), history);
+    StressArrays arrays;
+    arrays.h = H;
+    arrays.history = packed_history(find_material(material), history);
+    arrays.p = P;
+    arrays.energy = energy;
+    arrays.failed = failed;
     std::fill(&required(P, "P") + kTensor * first, P + kTensor * last, 0.0);
     with_dimension(dimension_of(static_cast<Kinematics>(kinematics)), [&](auto d) {
       bad = with_law(made, [&](const auto& law) {
-        return update_stress<d>(law, H, nullptr, first, last, arrays, P, energy, failed);
+        return update_stress<d>(law, arrays, first, last).first_failed;
       });
     });
     if (bad >= 0) {

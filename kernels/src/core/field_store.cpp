@@ -8,6 +8,12 @@ void FieldStore::declare(const char* owner, std::span<const FieldSpec> specs) {
   for (const auto& s : specs) fields_.push_back({s, owner, 0, {}, {}});
 }
 
+void FieldStore::merge(cleave_relation from, cleave_relation to) {
+  for (auto& f : fields_) {
+    if (f.spec.relation == from) f.spec.relation = to;
+  }
+}
+
 void FieldStore::allocate(cleave_relation relation, std::int64_t count) {
   for (auto& f : fields_) {
     if (f.spec.relation != relation) continue;

@@ -2,9 +2,13 @@
 // force (transpose). Every formulation with a stress at points uses these two kernels; what differs
 // are the weights.
 //
-// Row i holds the neighbours p of particle i with weight vectors zeta_ip = Omega_i g_ip; the weight
-// of i itself is - sum_p zeta_ip and is not stored. Rows are sorted by neighbour. Every pair
-// (i,p) is present as (p,i) too, and `reverse` maps one to the other.
+// Row q holds the particles a that the gradient at integration point q depends on, with weight
+// vectors zeta_qa = Omega_q g_qa. Two kinds:
+//   particle methods  point i is particle i; the row holds its neighbours, sorted; the weight of i
+//                     itself is - sum_p zeta_ip and is not stored; every pair (i,p) is present as
+//                     (p,i) too, and `reverse` maps one to the other
+//   finite elements   points lie in elements; the row holds all nodes of the element, `origin` is the
+//                     one that differences refer to, and column_* list the entries of every node
 #pragma once
 
 #include <cstdint>
@@ -16,46 +20,56 @@ namespace cleave {
 // A view; Index is std::int32_t in the model, std::int64_t in array calls.
 template <class Index, class Offset>
 struct GradientOperator {
-  const Offset* row_begin;  // (n+1)
-  const Index* neighbour;   // (h)
-  const Offset* reverse;    // (h)
-  const double* zeta;       // (3,h) [m2] reference configuration
-  const double* volume;     // (n)   Omega [m3]
+  const Offset* row_begin = nullptr;  // (q+1)
+  const Index* neighbour = nullptr;   // (h) particle
+  const Offset* reverse = nullptr;    // (h) particle methods
+  const double* zeta = nullptr;       // (3,h) [m2] reference configuration
+  const double* volume = nullptr;     // (q)   Omega [m3]
+  // Finite elements only; NULL otherwise.
+  const Index* origin = nullptr;         // (q)
+  const Offset* column_begin = nullptr;  // (n+1)
+  const Index* column_point = nullptr;   // (h) point of an entry, ascending
+  const Offset* column_entry = nullptr;  // (h) its place in zeta
+
+  bool of_particles() const { return origin == nullptr; }
+  std::int64_t origin_of(std::int64_t q) const { return of_particles() ? q : origin[q]; }
 };
 
-// sum_p a_ip (x) zeta_ip of row i for a vector array a, a_ip = a_p - a_i.
+// The operator of a body.
+using BodyOperator = GradientOperator<std::int32_t, std::int32_t>;
+
+// sum_a (w_a - w_origin) (x) zeta_qa of row q for a vector array w.
 template <int D, class Index, class Offset>
-Mat<D> row_gradient(const GradientOperator<Index, Offset>& g, const double* a, std::int64_t i) {
+Mat<D> row_gradient(const GradientOperator<Index, Offset>& g, const double* w, std::int64_t q) {
+  const std::int64_t origin = g.origin_of(q);
   Mat<D> sum;
-  for (Offset b = g.row_begin[i]; b < g.row_begin[i + 1]; ++b) {
-    add_dyad(sum, difference<D>(a, i, g.neighbour[b]), load_vector<D>(g.zeta, b));
+  for (Offset b = g.row_begin[q]; b < g.row_begin[q + 1]; ++b) {
+    add_dyad(sum, difference<D>(w, origin, g.neighbour[b]), load_vector<D>(g.zeta, b));
   }
   return sum;
 }
 
-// H_i = (1/Omega_i) sum_p u_ip (x) zeta_ip for first <= i < last; zero without volume.   [CBM 8]
-// [in]  u (3,n) displacement [m]     [out] h (9,n) displacement gradient [1], D x D components
+// H_q = (1/Omega_q) sum_a u_qa (x) zeta_qa for first <= q < last; zero without volume.   [CBM 8]
+// [in]  u (3,n) displacement [m]     [out] h (9,q) displacement gradient [1], D x D components
 template <int D, class Index, class Offset>
 void displacement_gradient(const GradientOperator<Index, Offset>& g, const double* u,
                            std::int64_t first, std::int64_t last, double* h) {
-  for (std::int64_t i = first; i < last; ++i) {
+  for (std::int64_t q = first; q < last; ++q) {
     Mat<D> sum;
-    if (g.volume[i] > 0) {
-      sum = row_gradient<D>(g, u, i);
-      const double inverse = 1 / g.volume[i];
+    if (g.volume[q] > 0) {
+      sum = row_gradient<D>(g, u, q);
+      const double inverse = 1 / g.volume[q];
       for (int r = 0; r < D; ++r)
         for (int c = 0; c < D; ++c) sum(r, c) *= inverse;
     }
-    store_tensor(sum, h, i);
+    store_tensor(sum, h, q);
   }
 }
 
-// f_i += P_i sum_p zeta_ip - sum_p P_p zeta_pi for first <= i < last.              [CBM 18, 19]
-// The force ON particle i: minus the gradient of sum_j Omega_j W(F_j).
-// [in]  p (9,n) first Piola-Kirchhoff stress [Pa]     [in,out] f (3,n) force [N]
+// Particle methods: f_i += P_i sum_p zeta_ip - sum_p P_p zeta_pi.                    [CBM 18, 19]
 template <int D, class Index, class Offset>
-void internal_force(const GradientOperator<Index, Offset>& g, const double* p, std::int64_t first,
-                    std::int64_t last, double* f) {
+void pair_force(const GradientOperator<Index, Offset>& g, const double* p, std::int64_t first,
+                std::int64_t last, double* f) {
   for (std::int64_t i = first; i < last; ++i) {
     Vec<D> own, others;
     for (Offset b = g.row_begin[i]; b < g.row_begin[i + 1]; ++b) {
@@ -70,6 +84,29 @@ void internal_force(const GradientOperator<Index, Offset>& g, const double* p, s
     const Vec<D> pulled = multiply(load_tensor<D>(p, i), own);
     for (int k = 0; k < D; ++k) f[kVector * i + k] += pulled[k] - others[k];
   }
+}
+
+// Finite elements: f_a -= sum_q P_q zeta_qa.
+template <int D, class Index, class Offset>
+void column_force(const GradientOperator<Index, Offset>& g, const double* p, std::int64_t first,
+                  std::int64_t last, double* f) {
+  for (std::int64_t a = first; a < last; ++a) {
+    Vec<D> sum;
+    for (Offset c = g.column_begin[a]; c < g.column_begin[a + 1]; ++c) {
+      const Vec<D> part =
+          multiply(load_tensor<D>(p, g.column_point[c]), load_vector<D>(g.zeta, g.column_entry[c]));
+      for (int k = 0; k < D; ++k) sum[k] += part[k];
+    }
+    for (int k = 0; k < D; ++k) f[kVector * a + k] -= sum[k];
+  }
+}
+
+// The force ON particles first <= a < last, added: minus the gradient of sum_q Omega_q W(F_q).
+// [in]  p (9,q) first Piola-Kirchhoff stress [Pa]     [in,out] f (3,n) force [N]
+template <int D, class Index, class Offset>
+void internal_force(const GradientOperator<Index, Offset>& g, const double* p, std::int64_t first,
+                    std::int64_t last, double* f) {
+  g.of_particles() ? pair_force<D>(g, p, first, last, f) : column_force<D>(g, p, first, last, f);
 }
 
 }  // namespace cleave

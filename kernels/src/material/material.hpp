@@ -2,7 +2,7 @@
 //
 // A law is a class with: static kParameters, static kHistory, a constructor from property values
 // and kinematics, density, youngs_modulus, shear_modulus, wave_speed, respond<D>,
-// thickness_stretch. Loops over points visit the variant once and then call the law directly.
+// thickness_stretch. `respond` writes its history only if its answer is valid. Loops over points visit the variant once and then call the law directly.
 #pragma once
 
 #include <span>

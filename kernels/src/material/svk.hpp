@@ -39,7 +39,7 @@ class StVenantKirchhoff {
   // S = lambda tr(E) I + 2 mu E,  P = F S.                                       [CBM 31]
   // Invalid in plane stress when 1 + 2 E_33 <= 0: the thickness would vanish.
   template <int D>
-  Response<Mat<D>> respond(const Mat<D>& h, const History&) const {
+  Response<Mat<D>> respond(const Mat<D>& h, const History&, const Increment&) const {
     const Mat<D> e = green_lagrange(h);
     double trace = 0;
     for (int i = 0; i < D; ++i) trace += e(i, i);
@@ -55,7 +55,7 @@ class StVenantKirchhoff {
   }
 
   // F_33 in two dimensions.
-  double thickness_stretch(const Mat<2>& h) const {
+  double thickness_stretch(const Mat<2>& h, const History&) const {
     if (kinematics_ == CLEAVE_PLANE_STRAIN) return 1.0;
     const Mat<2> e = green_lagrange(h);
     return std::sqrt(std::fmax(0.0, 1 + 2 * strain_33(e(0, 0) + e(1, 1))));

@@ -11,6 +11,7 @@ Body::Body(const cleave_body_spec& spec, int body_index)
       index(body_index),
       kinematics(static_cast<Kinematics>(spec.kinematics)),
       particles(spec.particles),
+      simplex_nodes(spec.simplex_nodes == 0 ? dimension() + 1 : spec.simplex_nodes),
       law(&find_material(spec.material)),
       material_parameters(text("material law ", law->name, " of ", label()), law->parameters),
       formulation(make_formulation(spec.formulation)) {
@@ -27,6 +28,12 @@ Body::Body(const cleave_body_spec& spec, int body_index)
     throw Error(CLEAVE_BAD_ARGUMENT, text(label(), " has ", spec.simplex_count,
                                           " simplices; allowed: 0 to ", INT32_MAX - 1));
   }
+  if (simplex_nodes != dimension() + 1 && !(simplex_nodes == 6 && dimension() == 2)) {
+    throw Error(
+        CLEAVE_BAD_ARGUMENT,
+        text(label(), ": a simplex has ", simplex_nodes, " particles; allowed: ",
+             dimension() == 2 ? "3, or 6 (corners, then the middles of edges 12 23 31)" : "4"));
+  }
   for (std::int64_t k = 0; k < kVector * particles; ++k) {
     if (!std::isfinite(spec.X[k]) && k % kVector < dimension()) {
       throw Error(CLEAVE_NOT_FINITE,
@@ -34,7 +41,7 @@ Body::Body(const cleave_body_spec& spec, int body_index)
     }
   }
   given_positions.assign(spec.X, spec.X + kVector * particles);
-  given_simplices.assign(spec.simplices, spec.simplices + (dimension() + 1) * spec.simplex_count);
+  given_simplices.assign(spec.simplices, spec.simplices + simplex_nodes * spec.simplex_count);
   for (const auto& g : parameter_groups()) {
     groups.emplace_back(g.name, ParameterSet(text("group ", g.name, " of ", label()), g.specs));
   }
@@ -61,11 +68,18 @@ const ParameterSet& Body::group(std::string_view group_name) const {
 }
 
 void Body::make_fields() {
+  points = formulation->integration_points(*this);
+  points_are_particles_ = points == kPointsAreParticles;
+  if (points_are_particles_) points = particles;
   fields = {};
   fields.declare("core", fields_of("core"));
   fields.declare(formulation->name(), fields_of(formulation->name()));
   fields.declare(law->name, law->history);
+  if (points_are_particles_) {
+    fields.merge(CLEAVE_RELATION_INTEGRATION_POINT, CLEAVE_RELATION_POINT);
+  }
   fields.allocate(CLEAVE_RELATION_POINT, particles);
+  fields.allocate(CLEAVE_RELATION_INTEGRATION_POINT, points);
   fields.allocate(CLEAVE_RELATION_BODY, 1);
   point = {fields.real("reference_position"),
            fields.real("position"),
@@ -80,6 +94,7 @@ void Body::make_fields() {
            fields.real("first_piola_kirchhoff_stress"),
            fields.real("strain_energy_density"),
            fields.real("volume_ratio"),
+           fields.real("volume"),
            fields.real("ledger")};
   for (std::size_t k = 0; k < law->history.size(); ++k) {
     history.base[k] = fields.real(law->history[k].name);

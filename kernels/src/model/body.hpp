@@ -26,10 +26,12 @@ struct PrescribedDof {
   double acceleration = 0;
 };
 
-// Raw pointers into the core fields, set when they are allocated.
+// Raw pointers into the core fields, set when they are allocated. h to volume are at integration
+// points, the others at particles.
 struct PointArrays {
-  double *X, *x, *u, *v, *a, *mass, *internal, *viscous, *external, *h, *p, *energy, *ratio,
-      *ledger;
+  double *X, *x, *u, *v, *a, *mass, *internal, *viscous, *external;
+  double *h, *p, *energy, *ratio, *volume;
+  double* ledger;
 };
 
 struct Body {
@@ -39,6 +41,7 @@ struct Body {
   // A particle for messages: its index and where it was in the reference configuration.
   std::string particle_label(std::int64_t i) const;
   int dimension() const { return dimension_of(kinematics); }
+  bool points_are_particles() const { return points_are_particles_; }
   ParameterSet& group(std::string_view group_name);
   const ParameterSet& group(std::string_view group_name) const;
 
@@ -46,8 +49,10 @@ struct Body {
   int index;
   Kinematics kinematics;
   std::int64_t particles;
+  std::int64_t points = 0;                    // integration points
+  int simplex_nodes;                          // particles of a simplex
   std::vector<double> given_positions;        // until set-up
-  std::vector<std::int64_t> given_simplices;  // until set-up
+  std::vector<std::int64_t> given_simplices;  // (simplex_nodes,m) until set-up
   std::vector<char> exempt;                   // (n) 1: in a zone without fracture; empty: none
 
   const MaterialEntry* law;
@@ -65,6 +70,9 @@ struct Body {
 
   // Declares the fields, allocates those of particles and the body, copies positions.
   void make_fields();
+
+ private:
+  bool points_are_particles_ = true;
 };
 
 }  // namespace cleave

@@ -15,8 +15,9 @@ Mat<3> full_deformation_gradient(const Body& body, std::int64_t i) {
     Mat<2> plane;
     for (int r = 0; r < 2; ++r)
       for (int c = 0; c < 2; ++c) plane(r, c) = h(r, c);
-    f(2, 2) =
-        with_law(body.material, [&](const auto& law) { return law.thickness_stretch(plane); });
+    f(2, 2) = with_law(body.material, [&](const auto& law) {
+      return law.thickness_stretch(plane, body.history.at(i));
+    });
   }
   return f;
 }

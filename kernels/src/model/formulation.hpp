@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "cleave/cleave.h"
+#include "core/gradient_operator.hpp"
 
 namespace cleave {
 
@@ -21,24 +22,33 @@ struct Clock {
 };
 
 struct StoredEnergy {
-  double elastic = 0, plastic = 0, stabilisation = 0;
+  double elastic = 0, stabilisation = 0;
 };
+
+inline constexpr std::int64_t kPointsAreParticles = -1;
 
 class Formulation {
  public:
   virtual ~Formulation() = default;
   virtual const char* name() const = 0;  // as in the formulations table
 
+  // Number of points where the stress is evaluated, before fields are allocated;
+  // kPointsAreParticles: the particles themselves.
+  virtual std::int64_t integration_points(const Body&) const { return kPointsAreParticles; }
   // Checks the options, allocates the formulation's fields and fills those of lifetime setup.
   virtual void setup(Body& body) = 0;
   // All caches from setup and state fields, and whatever the formulation keeps outside fields.
   virtual void rebuild(Body& body, int threads) = 0;
-  // Largest stable step with its safety [s].
+  // Largest stable step of the undeformed body with its safety [s].
   virtual double stable_step(const Body& body) const = 0;
+  // The gradient operator of a formulation with a stress at points, else nullptr. Valid until bonds
+  // break or the body is rebuilt.
+  virtual const BodyOperator* gradient_operator() const { return nullptr; }
 
   // The parts of a step, in this order.
   virtual void break_bonds(Body& body, const Clock& clock, int threads) = 0;
-  virtual void deform(Body& body, int threads) = 0;  // displacement gradient, then stress
+  // Displacement gradient, then stress.
+  virtual void deform(Body& body, const Clock& clock, int threads) = 0;
   virtual void forces(Body& body, int threads) = 0;  // sets internal and viscous force
 
   // Breaks bonds before the first step. [in] pairs (2,count)

@@ -11,7 +11,8 @@ enum Entry {
   kExternal,        // T[external force]
   kReaction,        // T[force that keeps prescribed motion]
   kFracture,        // released by breaking bonds
-  kPlastic,         // plastic work
+  kPlastic,         // dissipated by plastic flow
+  kShock,           // dissipated by the viscosity of the law; the law's stress does this work
   kStarted,         // 1 once the two totals below are set, at the first step
   kStartTotal,      // kinetic + stored at the start
   kStartStaggered,  // kinetic_staggered at the start

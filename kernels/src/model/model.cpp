@@ -120,18 +120,19 @@ cleave_energies energies(const Body& body) {
   e.kinetic_staggered = e.kinetic - dt * dt / 8 * square_a;
   const StoredEnergy stored = body.formulation->stored_energy(body);
   e.elastic = stored.elastic;
-  e.plastic = stored.plastic;
+  e.plastic = pt.ledger[ledger::kPlastic];
   e.stabilisation = stored.stabilisation;
   e.fracture = pt.ledger[ledger::kFracture];
-  e.viscous = pt.ledger[ledger::kViscous];
+  e.viscous = pt.ledger[ledger::kViscous] + pt.ledger[ledger::kShock];
   e.external = pt.ledger[ledger::kExternal];
   e.reaction = pt.ledger[ledger::kReaction];
   e.internal = pt.ledger[ledger::kInternal];
-  const double out = e.viscous - e.external - e.reaction;
+  const double work = e.external + e.reaction;
   if (pt.ledger[ledger::kStarted] > 0) {
-    e.balance = e.kinetic + e.elastic + e.plastic + e.stabilisation + e.fracture + out -
-                pt.ledger[ledger::kStartTotal];
-    e.identity = e.kinetic_staggered + e.internal + out - pt.ledger[ledger::kStartStaggered];
+    e.balance = e.kinetic + e.elastic + e.plastic + e.stabilisation + e.fracture + e.viscous -
+                work - pt.ledger[ledger::kStartTotal];
+    e.identity = e.kinetic_staggered + e.internal + pt.ledger[ledger::kViscous] - work -
+                 pt.ledger[ledger::kStartStaggered];
   }
   e.hourglass = body.formulation->hourglass_energy(body);
   return e;

@@ -107,7 +107,7 @@ void advance_body(Body& body, double dt, int threads) {
 // A formulation names the particle; the step and the time are known here.
 void deform_at(Body& body, const Clock& clock, int threads) {
   try {
-    body.formulation->deform(body, threads);
+    body.formulation->deform(body, clock, threads);
   } catch (const Error& e) {
     throw Error(e.status, text(e.what(), "; at step ", clock.step, ", time ", clock.time));
   }
@@ -119,7 +119,8 @@ void check_finite(Body& body, const Clock& clock) {
   const PointArrays& pt = body.point;
   const double sum = pt.ledger[ledger::kInternal] + pt.ledger[ledger::kViscous] +
                      pt.ledger[ledger::kExternal] + pt.ledger[ledger::kReaction] +
-                     pt.ledger[ledger::kFracture];
+                     pt.ledger[ledger::kFracture] + pt.ledger[ledger::kPlastic] +
+                     pt.ledger[ledger::kShock];
   if (std::isfinite(sum)) return;
   for (const char* name : {"external_force", "displacement", "first_piola_kirchhoff_stress",
                            "internal_force", "viscous_force", "velocity"}) {
@@ -145,7 +146,7 @@ void initialise(cleave_model& model, double time) {
   for (auto& body : model.bodies) {
     for (std::int64_t c = 0; c < kVector * body->particles; ++c)
       body->point.x[c] = body->point.X[c] + body->point.u[c];
-    body->formulation->deform(*body, model.threads);
+    body->formulation->deform(*body, model.clock, model.threads);
     body->formulation->forces(*body, model.threads);
     accelerate(*body, model.threads);
   }

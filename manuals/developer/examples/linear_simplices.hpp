@@ -39,9 +39,9 @@ class LinearSimplices final : public Formulation {
     }
   }
 
-  void rebuild(Body& body, int threads) override { deform(body, threads); }
+  void rebuild(Body& body, int threads) override { deform(body, {}, threads); }
 
-  void deform(Body& body, int threads) override {
+  void deform(Body& body, const Clock&, int threads) override {
     body.dimension() == 2 ? stresses<2>(body, threads) : stresses<3>(body, threads);
   }
   void forces(Body& body, int threads) override {
@@ -113,7 +113,7 @@ class LinearSimplices final : public Formulation {
             add_dyad(h, difference<D>(body.point.u, corner(s, 0, D + 1), corner(s, a, D + 1)),
                      shape.gradient[a]);
           }
-          const Response<Mat<D>> r = law.respond(h, History{});
+          const Response<Mat<D>> r = law.respond(h, History{}, Increment{});
           store_tensor(r.stress, stress_.data(), s);
           energy_[static_cast<std::size_t>(s)] = r.energy;
         }

@@ -39,7 +39,7 @@ class NeoHooke {
 
   // h = F - I. An answer that is not valid stops the run with the particle's number.
   template <int D>
-  Response<Mat<D>> respond(const Mat<D>& h, const History&) const {
+  Response<Mat<D>> respond(const Mat<D>& h, const History&, const Increment&) const {
     const Mat<D> f = plus_identity(h);
     const double j = determinant(f);
     Response<Mat<D>> r;
@@ -56,7 +56,7 @@ class NeoHooke {
   }
 
   // F33 in two dimensions.
-  double thickness_stretch(const Mat<2>&) const { return 1.0; }
+  double thickness_stretch(const Mat<2>&, const History&) const { return 1.0; }
 
  private:
   double density_, youngs_, mu_, lambda_;

@@ -66,7 +66,7 @@ TEST_F(Meshed, SplitCrackOpensWithoutLosingVolume) {
   EXPECT_EQ(scene.bodies()[0].particles(), 17);
   EXPECT_EQ(scene.model().counts(0).inert, 0);
   double volume = 0;
-  for (const double v : field(scene, "averaging_volume")) volume += v;
+  for (const double v : field(scene, "volume")) volume += v;
   EXPECT_DOUBLE_EQ(volume, 8.0);
 }
 
@@ -75,7 +75,7 @@ TEST_F(Meshed, DeletedCrackTakesTheTrianglesOnOneSide) {
   const Scene scene = Scene::from_deck(cut, 1);
   EXPECT_EQ(scene.bodies()[0].particles(), 15);
   double volume = 0;
-  for (const double v : field(scene, "averaging_volume")) volume += v;
+  for (const double v : field(scene, "volume")) volume += v;
   EXPECT_LT(volume, 8.0 - 1.5);
   EXPECT_GT(volume, 8.0 - 3.5);
 }

@@ -61,7 +61,8 @@ void ContinuumBondMethod::setup(Body& body) {
   setup_viscosity(body);
   stabilisation_.setup(body, network_);
   fracture_.setup(body, network_);
-  failed_.assign(static_cast<std::size_t>(block_count(body.particles)), -1);
+  points_.setup(body);
+  operator_ = network_.gradient();
 }
 
 void ContinuumBondMethod::setup_viscosity(const Body& body) {
@@ -93,7 +94,7 @@ void ContinuumBondMethod::setup_viscosity(const Body& body) {
 
 void ContinuumBondMethod::rebuild(Body& body, int threads) {
   network_.rebuild(body, threads);
-  body.dimension() == 2 ? gradients<2>(body, threads) : gradients<3>(body, threads);
+  points_.gradients(body, operator_, threads);
 }
 
 double ContinuumBondMethod::stable_step(const Body& body) const {
@@ -109,50 +110,13 @@ void ContinuumBondMethod::precrack(Body& body, std::span<const std::int64_t> pai
   fracture_.precrack(body, network_, pairs);
 }
 
-template <int D>
-void ContinuumBondMethod::gradients(Body& body, int threads) {
-  const Operator g = network_.gradient();
-  for_blocks(threads, body.particles, [&](std::int64_t, std::int64_t first, std::int64_t last) {
-    displacement_gradient<D>(g, body.point.u, first, last, body.point.h);
-    for (std::int64_t i = first; i < last; ++i) {
-      body.point.ratio[i] = determinant(plus_identity(load_tensor<D>(body.point.h, i)));
-    }
-  });
-}
-
-template <int D>
-void ContinuumBondMethod::stresses(Body& body, int threads) {
-  with_law(body.material, [&](const auto& law) {
-    for_blocks(threads, body.particles,
-               [&](std::int64_t block, std::int64_t first, std::int64_t last) {
-                 failed_[static_cast<std::size_t>(block)] =
-                     update_stress<D>(law, body.point.h, network_.volume, first, last, body.history,
-                                      body.point.p, body.point.energy, nullptr);
-               });
-  });
-  for (const std::int64_t i : failed_) {
-    if (i < 0) continue;
-    throw Error(CLEAVE_BAD_JACOBIAN,
-                text(body.label(), ": law ", body.law->name, " has no answer at ",
-                     body.particle_label(i), " (det F = ", body.point.ratio[i],
-                     "); the deformation is outside its range: use a smaller step, "
-                     "stabilisation, or another law"));
-  }
-}
-
-void ContinuumBondMethod::deform(Body& body, int threads) {
-  if (body.dimension() == 2) {
-    gradients<2>(body, threads);
-    stresses<2>(body, threads);
-  } else {
-    gradients<3>(body, threads);
-    stresses<3>(body, threads);
-  }
+void ContinuumBondMethod::deform(Body& body, const Clock& clock, int threads) {
+  points_.deform(body, operator_, clock, threads);
 }
 
 template <int D>
 void ContinuumBondMethod::viscous_force(Body& body, std::int64_t first, std::int64_t last) const {
-  const Operator g = network_.gradient();
+  const BodyOperator& g = operator_;
   const PointArrays& pt = body.point;
   switch (viscosity_) {
     case ViscosityForm::none:
@@ -174,14 +138,13 @@ void ContinuumBondMethod::viscous_force(Body& body, std::int64_t first, std::int
 
 template <int D>
 void ContinuumBondMethod::forces_in(Body& body, int threads) {
-  const Operator g = network_.gradient();
   const double* stress = stabilisation_.active()
                              ? stabilisation_.bond_stress<D>(body, network_, threads)
                              : body.point.p;
   for_blocks(threads, body.particles, [&](std::int64_t, std::int64_t first, std::int64_t last) {
     std::fill(body.point.internal + kVector * first, body.point.internal + kVector * last, 0.0);
     std::fill(body.point.viscous + kVector * first, body.point.viscous + kVector * last, 0.0);
-    internal_force<D>(g, stress, first, last, body.point.internal);
+    internal_force<D>(operator_, stress, first, last, body.point.internal);
     if (stabilisation_.active())
       stabilisation_.add_force<D>(network_, first, last, body.point.internal);
     viscous_force<D>(body, first, last);
@@ -194,10 +157,7 @@ void ContinuumBondMethod::forces(Body& body, int threads) {
 
 StoredEnergy ContinuumBondMethod::stored_energy(const Body& body) const {
   StoredEnergy e;
-  for (std::int64_t i = 0; i < body.particles; ++i)
-    e.elastic += network_.volume[i] * body.point.energy[i];
-  e.elastic *= stabilisation_.particle_share();
-  e.plastic = body.point.ledger[ledger::kPlastic];
+  e.elastic = points_.stored_energy(body) * stabilisation_.particle_share();
   e.stabilisation = body.dimension() == 2 ? stabilisation_.energy<2>(body, network_)
                                           : stabilisation_.energy<3>(body, network_);
   return e;
@@ -214,13 +174,9 @@ void ContinuumBondMethod::count(const Body& body, cleave_counts& counts) const {
   counts.simplices += network_.simplices;
   counts.broken += std::count(network_.status, network_.status + network_.bonds, kBroken);
   counts.inert += std::count(network_.status, network_.status + network_.bonds, kInert);
-  for (std::int64_t i = 0; i < body.particles; ++i) {
-    if (!(network_.volume[i] > 0)) {
-      ++counts.isolated;
-    } else if (!(body.point.ratio[i] > 0)) {
-      ++counts.inverted;
-    }
-  }
+  counts.isolated += std::count_if(network_.volume, network_.volume + body.particles,
+                                   [](double volume) { return !(volume > 0); });
+  counts.inverted += points_.inverted(body);
 }
 
 bool ContinuumBondMethod::derive(const Body& body, std::string_view field, std::int64_t first,

@@ -8,6 +8,7 @@
 #include "formulation/cbm/network.hpp"
 #include "formulation/cbm/stabilisation.hpp"
 #include "formulation/cbm/viscosity.hpp"
+#include "formulation/stress_points.hpp"
 
 namespace cleave::cbm {
 
@@ -17,9 +18,10 @@ class ContinuumBondMethod final : public Formulation {
   void setup(Body& body) override;
   void rebuild(Body& body, int threads) override;
   double stable_step(const Body& body) const override;
+  const BodyOperator* gradient_operator() const override { return &operator_; }
 
   void break_bonds(Body& body, const Clock& clock, int threads) override;
-  void deform(Body& body, int threads) override;
+  void deform(Body& body, const Clock& clock, int threads) override;
   void forces(Body& body, int threads) override;
   void precrack(Body& body, std::span<const std::int64_t> pairs) override;
 
@@ -33,22 +35,19 @@ class ContinuumBondMethod final : public Formulation {
  private:
   void setup_viscosity(const Body& body);
   template <int D>
-  void gradients(Body& body, int threads);
-  template <int D>
-  void stresses(Body& body, int threads);
-  template <int D>
   void forces_in(Body& body, int threads);
   template <int D>
   void viscous_force(Body& body, std::int64_t first, std::int64_t last) const;
 
   Network network_;
+  BodyOperator operator_;
+  StressPoints points_;
   Fracture fracture_;
   Stabilisation stabilisation_;
   ViscosityForm viscosity_ = ViscosityForm::none;
   BondRate<std::int32_t> bond_rate_;
   double beta_ = 0;
   double shortest_ = 0, stable_length_ = 0;  // [m] of the intact body: do not change with damage
-  std::vector<std::int64_t> failed_;  // per block: first particle whose law has no answer, or -1
 };
 
 }  // namespace cleave::cbm

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "formulation/stress_points.hpp"
+
 namespace cleave::cbm {
 
 namespace {
@@ -158,8 +160,9 @@ void Fracture::collect(const Body& body, const Network& network) {
 // History is read, not changed.
 template <int D>
 void Fracture::add_release(const Body& body, const Network& network,
-                           const Stabilisation& stabilisation, double dt, double sign) {
-  const Operator g = network.gradient();
+                           const Stabilisation& stabilisation, const Clock& clock, double sign) {
+  const BodyOperator g = network.gradient();
+  const StressArrays arrays = stress_arrays(body, clock);
   const double share = sign * stabilisation.particle_share();
   for (std::size_t place = 0; place < touched_.size(); ++place) {
     const std::int64_t i = touched_[place];
@@ -168,19 +171,20 @@ void Fracture::add_release(const Body& body, const Network& network,
     Mat<D> h = row_gradient<D>(g, body.point.u, i);
     for (int r = 0; r < D; ++r)
       for (int c = 0; c < D; ++c) h(r, c) /= volume;
-    const auto response = trial_response<D>(body.material, body.history, h, i);
+    const auto response =
+        trial_response<D>(body.material, body.history, h, arrays.increment<D>(i), i);
     release_[place] +=
-        share * (volume * response.energy -
-                 0.5 * dt * contract(response.stress, row_gradient<D>(g, body.point.v, i)));
+        share * (volume * (response.energy + response.plastic + response.viscous) -
+                 0.5 * clock.dt * contract(response.stress, row_gradient<D>(g, body.point.v, i)));
   }
-  if (stabilisation.active()) add_simplex_release<D>(body, network, stabilisation, dt, sign);
+  if (stabilisation.active()) add_simplex_release<D>(body, network, stabilisation, clock.dt, sign);
 }
 
 // The same for the energy that the stabilisation keeps on simplices, booked on touched corners.
 template <int D>
 void Fracture::add_simplex_release(const Body& body, const Network& network,
                                    const Stabilisation& stabilisation, double dt, double sign) {
-  const Operator g = network.gradient();
+  const BodyOperator g = network.gradient();
   const bool deviation = stabilisation.form() == StabilisationForm::deviation;
   for (const std::int32_t s : affected_) {
     if (network.alive[s] == 0) continue;
@@ -295,9 +299,9 @@ template <int D>
 void Fracture::break_bonds(Body& body, Network& network, const Stabilisation& stabilisation,
                            const Clock& clock) {
   collect(body, network);
-  add_release<D>(body, network, stabilisation, clock.dt, +1);
+  add_release<D>(body, network, stabilisation, clock, +1);
   delete_collected<D>(network);
-  add_release<D>(body, network, stabilisation, clock.dt, -1);
+  add_release<D>(body, network, stabilisation, clock, -1);
   for (const std::int32_t bond : broken_) network.status[bond] = kBroken;
   mark_inert(body, network);
   for (const double e : release_) body.point.ledger[ledger::kFracture] += e;

@@ -29,7 +29,7 @@ class Fracture {
   void collect(const Body& body, const Network& network);
   template <int D>
   void add_release(const Body& body, const Network& network, const Stabilisation& stabilisation,
-                   double dt, double sign);
+                   const Clock& clock, double sign);
   template <int D>
   void add_simplex_release(const Body& body, const Network& network,
                            const Stabilisation& stabilisation, double dt, double sign);

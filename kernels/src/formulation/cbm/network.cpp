@@ -35,7 +35,7 @@ void Network::build(Body& body) {
   critical = body.fields.real("critical_strain");
   zeta = body.fields.real("bond_vector");
   weight = body.fields.real("bond_weight");
-  volume = body.fields.real("averaging_volume");
+  volume = body.point.volume;
   make_bonds();
   rebuild(body, 1);
 }

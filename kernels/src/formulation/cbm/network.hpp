@@ -11,8 +11,6 @@
 
 namespace cleave::cbm {
 
-using Operator = GradientOperator<std::int32_t, std::int32_t>;
-
 enum BondStatus : std::int32_t { kIntact = 0, kBroken = 1, kInert = 2 };
 
 class Network {
@@ -52,7 +50,7 @@ class Network {
   // Undirected bond between two particles, or -1.
   std::int32_t find_bond(std::int64_t i, std::int64_t p) const;
 
-  Operator gradient() const {
+  BodyOperator gradient() const {
     return {row_begin.data(), neighbour.data(), reverse.data(), zeta, volume};
   }
   std::int64_t bytes() const;

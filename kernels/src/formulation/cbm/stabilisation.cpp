@@ -52,8 +52,9 @@ double Stabilisation::simplex_energy(const Body& body, double volume, const Mat<
     scale = 2 * alpha_ * shear_modulus_ * volume;
     energy = 0.5 * scale * contract(s, s);
   } else {
-    const auto r =
-        with_law(body.material, [&](const auto& law) { return law.respond(simplex_h, History{}); });
+    const auto r = with_law(body.material, [&](const auto& law) {
+      return law.respond(simplex_h, History{}, Increment{});
+    });
     s = r.stress;
     scale = alpha_ * volume;
     energy = scale * r.energy;

@@ -190,7 +190,7 @@ TEST_P(BondVectors, RebuiltRowsHaveTheBitsOfRowsBuiltAtOnce) {
   EXPECT_LT(std::count(alive.begin(), alive.end(), 1), mesh.simplex_count());
   EXPECT_GT(std::count(alive.begin(), alive.end(), 1), 0);
   EXPECT_EQ(model.real("bond_vector"), at_once.zeta);
-  EXPECT_EQ(model.real("averaging_volume"), at_once.volume);
+  EXPECT_EQ(model.real("volume"), at_once.volume);
 }
 
 TEST_P(BondVectors, DoNotDependOnTheOrientationOfSimplices) {
