@@ -6,9 +6,8 @@
 #include <cstdint>
 
 namespace cleave::io {
-namespace {
 
-std::string quoted(const std::string& field) {
+std::string csv_field(const std::string& field) {
   if (field.find_first_of(",\"\n\r") == std::string::npos) return field;
   std::string text = "\"";
   for (const char c : field) {
@@ -18,7 +17,7 @@ std::string quoted(const std::string& field) {
   return text + '"';
 }
 
-void append_number(std::string& text, double value, bool is_integer) {
+void append_csv_number(std::string& text, double value, bool is_integer) {
   std::array<char, 32> digits{};  // the longest double has 24
   char* const end = digits.data() + digits.size();
   if (std::isnan(value)) value = std::fabs(value);  // one spelling, whatever the sign bit
@@ -28,13 +27,11 @@ void append_number(std::string& text, double value, bool is_integer) {
   text.append(digits.data(), result.ptr);
 }
 
-}  // namespace
-
 std::string csv_header(std::span<const Column> columns) {
   std::string text;
   for (const Column& column : columns) {
     if (!text.empty()) text += ',';
-    text += quoted(column.name + " [" + column.units + "]");
+    text += csv_field(column.name + " [" + column.units + "]");
   }
   return text + '\n';
 }
@@ -43,7 +40,7 @@ void append_csv_records(std::string& text, std::span<const Column> columns,
                         std::span<const double> records) {
   std::size_t column = 0;
   for (const double value : records) {
-    append_number(text, value, columns[column].is_integer);
+    append_csv_number(text, value, columns[column].is_integer);
     column = (column + 1) % columns.size();
     text += column == 0 ? '\n' : ',';
   }

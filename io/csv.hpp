@@ -1,4 +1,4 @@
-// Text of the CSV files beside record tables; internal to io.
+// Text of CSV files: one form for the files beside record tables and for exported results.
 #pragma once
 
 #include <span>
@@ -15,5 +15,9 @@ std::string csv_header(std::span<const Column> columns);
 // "inf" as themselves), integer columns no decimals.
 void append_csv_records(std::string& text, std::span<const Column> columns,
                         std::span<const double> records);
+
+// Parts of such a line, for tables that also hold texts or gaps.
+void append_csv_number(std::string& text, double value, bool is_integer);
+std::string csv_field(const std::string& text);
 
 }  // namespace cleave::io

@@ -27,6 +27,8 @@ const char* topology(CellKind kind) {
       return "TRI3";
     case CellKind::tetrahedron:
       return "TETRA";
+    case CellKind::triangle6:
+      return "TRI6";
   }
   return "UNKNOWN";
 }

@@ -8,9 +8,15 @@
 
 namespace cleave::io {
 
-// Linear cells only; a file with other cells is read and those cells are counted in `skipped`
-// (second-order meshes are refused with a message that says how to mesh again).
-enum class CellKind { point = 1, line = 2, triangle = 3, tetrahedron = 4 };  // value = corners
+// Meshes are read with linear cells only; other cells are counted in `skipped` (second-order meshes are
+// refused with a message that says how to mesh again). Results may also have six-node triangles.
+enum class CellKind {  // value = nodes
+  point = 1,
+  line = 2,
+  triangle = 3,
+  tetrahedron = 4,
+  triangle6 = 6  // corners, then the middles of edges 12, 23, 31
+};
 
 // No cell occurs twice: a file that repeats one (Gmsh 2.2 does, for every physical group it is in)
 // gives it once, at its first place, with the corners in the order of the first.

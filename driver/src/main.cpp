@@ -7,6 +7,7 @@
 
 #include "cleave/cleave.h"
 #include "command/deck_path.hpp"
+#include "command/export.hpp"
 #include "command/info.hpp"
 #include "command/keys.hpp"
 #include "command/tables.hpp"
@@ -26,6 +27,7 @@ enum ExitCode { kDone = 0, kRunFailed = 1, kBadInput = 2 };
 struct Words {
   std::string deck_to_run, deck, checkpoint, topic, table, file, format = "text";
   RunOptions run;
+  ExportRequest to_export;
 };
 
 int print(const std::string& text) {
@@ -108,6 +110,48 @@ void add_file_commands(CLI::App& app, Words& words, Action& chosen) {
   parse.add_option("FILE", words.file, "namelist file")->required();
 }
 
+int export_to_file(const ExportRequest& request) {
+  const bool on_screen = request.output == "-";
+  const std::string done = export_result(request, [](std::string_view text) { std::cout << text; });
+  (on_screen ? std::cerr : std::cout) << done;
+  return kDone;
+}
+
+void add_export_command(CLI::App& app, Words& words, Action& chosen) {
+  ExportRequest& request = words.to_export;
+  CLI::App& command =
+      add_command(app, chosen, "export", "write one frame of a result as CSV or VTK grid",
+                  [&request] { return export_to_file(request); });
+  command.add_option("RESULT", request.result, "results of a run (NAME.exo)")->required();
+  command
+      .add_option("--step", request.part.step,
+                  "frame: last (default), first, or its number from 1 as `cleave info` counts")
+      ->type_name("STEP");
+  command.add_option("--time", request.part.time, "the frame nearest to this time")
+      ->type_name("TIME");
+  command.add_option("--fields", request.part.fields, "only these fields or components: a,b,...")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("NAMES");
+  command.add_option("--block", request.part.block, "only this body")->type_name("NAME");
+  command.add_flag("--alive", request.part.alive, "without deleted elements");
+  command.add_option("--on", request.on, "lines of a CSV: particles (default) or elements")
+      ->check(CLI::IsMember({"particles", "elements"}))
+      ->type_name("WHAT");
+  command
+      .add_option("--configuration", request.configuration,
+                  "positions of a grid: current (default) or reference")
+      ->check(CLI::IsMember({"current", "reference"}))
+      ->type_name("WHICH");
+  command.add_option("--format", request.format, "csv or vtu; default: as the output's name ends")
+      ->check(CLI::IsMember({"csv", "vtu"}))
+      ->type_name("FORMAT");
+  command
+      .add_option("--output", request.output,
+                  "file to write, or - for a CSV on the screen; default: beside the result")
+      ->type_name("FILE");
+}
+
 std::vector<std::string> command_names(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
@@ -158,6 +202,7 @@ int run_command_line(int argc, char** argv) {
   add_deck_commands(app, words, chosen);
   add_listing_commands(app, words, chosen);
   add_file_commands(app, words, chosen);
+  add_export_command(app, words, chosen);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -284,22 +284,22 @@ TEST(Life, TwoModelsDoNotKnowOfEachOther) {
     model.put("velocity", v);
     model.initialise();
   };
-  const auto run = [](Model& model, int steps) {
-    const double dt = 0.3 * model.stable_step();
+  const auto run = [](Model& model, double dt, int steps) {
     for (int n = 0; n < steps; ++n) model.step(dt);
   };
   const Case cube{};
   Model alone2, alone3, a, b, c, d;
   for (Model* m : {&alone2, &a, &c}) build(*m, kPlate, flat);
   for (Model* m : {&alone3, &b, &d}) build(*m, cube, solid);
-  run(alone2, 100);
-  run(alone3, 100);
+  const double dt2 = 0.3 * alone2.stable_step(), dt3 = 0.3 * alone3.stable_step();
+  run(alone2, dt2, 100);
+  run(alone3, dt3, 100);
   for (int n = 0; n < 100; ++n) {
-    run(a, 1);
-    run(b, 1);
+    run(a, dt2, 1);
+    run(b, dt3, 1);
   }
-  std::thread other([&] { run(c, 100); });
-  run(d, 100);
+  std::thread other([&] { run(c, dt2, 100); });
+  run(d, dt3, 100);
   other.join();
   ASSERT_GT(alone2.counts().broken, 0);
   ASSERT_GT(alone3.counts().broken, 0);

@@ -49,11 +49,13 @@ class Free {
   Model model;
 };
 
-std::vector<Setting> breaking() {
-  return {{"fracture", "critical_strain", 0.02},
-          {"viscosity", "beta", 0.3},
-          {"viscosity", "length", kSpacing}};
+// Bonds that break and viscosity, as far as the formulation has them.
+std::vector<Setting> breaking(const Case& c) {
+  return accepted(c, {{"fracture", "critical_strain", 0.02},
+                      {"viscosity", "beta", 0.3},
+                      {"viscosity", "length", kSpacing}});
 }
+bool breaks(const Case& c) { return takes(c, "fracture"); }
 
 struct Momentum {
   double linear[3] = {}, angular[3] = {};
@@ -73,10 +75,12 @@ Momentum momentum(const Model& model) {
 class Motion : public testing::TestWithParam<Case> {};
 
 TEST_P(Motion, FreeBodyConservesBothMomentaWhileItBreaks) {
-  Free free(GetParam(), breaking(), 25.0);
+  Free free(GetParam(), breaking(GetParam()), 25.0);
   const Momentum before = momentum(free.model);
   free.run(200);
-  ASSERT_GT(free.model.counts().broken, 5);
+  if (breaks(GetParam())) {
+    ASSERT_GT(free.model.counts().broken, 5);
+  }
   const Momentum after = momentum(free.model);
   const double size = std::fabs(before.linear[0]) + std::fabs(before.linear[1]);
   for (int k = 0; k < 3; ++k) {
@@ -87,7 +91,7 @@ TEST_P(Motion, FreeBodyConservesBothMomentaWhileItBreaks) {
 }
 
 TEST_P(Motion, IntegratorIdentityHoldsToRoundOff) {
-  Free free(GetParam(), breaking(), 25.0);
+  Free free(GetParam(), breaking(GetParam()), 25.0);
   free.run(200);
   const cleave_energies e = free.model.energies();
   EXPECT_LT(std::fabs(e.identity), 1e-12 * e.kinetic);  // measured 2e-15
@@ -96,35 +100,44 @@ TEST_P(Motion, IntegratorIdentityHoldsToRoundOff) {
 TEST_P(Motion, EnergyBalanceClosesWithSecondOrder) {
   double error[2];
   for (int k = 0; k < 2; ++k) {
-    Free free(GetParam(), {{"stabilisation", "alpha", 0.05}}, 1.0);
+    Free free(GetParam(),
+              accepted(GetParam(), {{"stabilisation", "alpha", 0.05}, {"hourglass", "psi", 0.1}}),
+              1.0);
     free.run(100 << k, 0.2 / (1 << k));
     const cleave_energies e = free.model.energies();
     error[k] = std::fabs(e.balance) / e.kinetic;
   }
-  EXPECT_LT(error[0], 1e-3);            // measured below 2e-4
+  EXPECT_LT(error[0], 3e-3);  // measured below 2e-4; kernel methods, with longer steps, 1.3e-3
   EXPECT_GT(error[0] / error[1], 2.5);  // second order: 4
 }
 
 TEST_P(Motion, ThreadsDoNotChangeABit) {
-  Free one(GetParam(), breaking(), 25.0, 1);
+  Free one(GetParam(), breaking(GetParam()), 25.0, 1);
   one.run(150);
   for (const int threads : {2, 3}) {
-    Free many(GetParam(), breaking(), 25.0, threads);
+    Free many(GetParam(), breaking(GetParam()), 25.0, threads);
     many.run(150);
     EXPECT_EQ(one.model.real("displacement"), many.model.real("displacement"));
     EXPECT_EQ(one.model.real("ledger"), many.model.real("ledger"));
-    EXPECT_EQ(one.model.integer("bond_status"), many.model.integer("bond_status"));
+    if (breaks(GetParam())) {
+      EXPECT_EQ(one.model.integer("bond_status"), many.model.integer("bond_status"));
+    }
   }
 }
 
 // millimetre, millisecond, gram: lengths x 1000, times x 1000, masses x 1000.
 TEST_P(Motion, UnitsDoNotMatter) {
-  Free si(GetParam(), {{"fracture", "critical_strain", 0.02}}, 25.0);
-  Free mm(GetParam(), {{"fracture", "critical_strain", 0.02}}, 25.0, 1, 1000, 1000, 1000);
+  const auto settings = accepted(GetParam(), {{"fracture", "critical_strain", 0.02}});
+  Free si(GetParam(), settings, 25.0);
+  Free mm(GetParam(), settings, 25.0, 1, 1000, 1000, 1000);
   si.run(100);
   mm.run(100);
-  EXPECT_EQ(si.model.integer("bond_status"), mm.model.integer("bond_status"));
-  ASSERT_GT(si.model.counts().broken, 5);
+  if (breaks(GetParam())) {
+    EXPECT_EQ(si.model.integer("bond_status"), mm.model.integer("bond_status"));
+  }
+  if (breaks(GetParam())) {
+    ASSERT_GT(si.model.counts().broken, 5);
+  }
   const auto u = si.model.real("displacement"), w = mm.model.real("displacement");
   double size = 0;
   for (const double c : u) size = std::fmax(size, std::fabs(c));
@@ -133,7 +146,7 @@ TEST_P(Motion, UnitsDoNotMatter) {
 }
 
 TEST_P(Motion, StepDoesNotAllocate) {
-  Free free(GetParam(), breaking(), 25.0);
+  Free free(GetParam(), breaking(GetParam()), 25.0);
   const double dt = 0.5 * free.model.stable_step();
   free.model.step(dt);
   const long before = allocations();
@@ -142,7 +155,9 @@ TEST_P(Motion, StepDoesNotAllocate) {
     cleave_model_update(free.model);
   }
   const long after = allocations();
-  EXPECT_GT(free.model.counts().broken, 5);
+  if (breaks(GetParam())) {
+    EXPECT_GT(free.model.counts().broken, 5);
+  }
   EXPECT_EQ(after - before, 0);
 }
 

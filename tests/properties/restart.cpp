@@ -15,10 +15,11 @@ class Restart : public testing::TestWithParam<Case> {
   }
   void build(Model& model) const {
     model.add(GetParam(), mesh(),
-              {{"fracture", "critical_strain", 0.02},
-               {"viscosity", "beta", 0.3},
-               {"viscosity", "length", kSpacing},
-               {"stabilisation", "alpha", 0.03}});
+              accepted(GetParam(), {{"fracture", "critical_strain", 0.02},
+                                    {"viscosity", "beta", 0.3},
+                                    {"viscosity", "length", kSpacing},
+                                    {"stabilisation", "alpha", 0.03},
+                                    {"hourglass", "psi", 0.1}}));
     model.setup();
   }
   // A body thrown apart: it breaks, then its pieces swing back.
@@ -82,8 +83,10 @@ TEST_P(Restart, IsBitwiseInAllFieldsTwice) {
     if (n < 40) first.step(dt);
     if (n == 39) broken_at_cut = whole.counts().broken;
   }
-  ASSERT_GT(broken_at_cut, 3);
-  ASSERT_GT(whole.counts().broken, broken_at_cut);
+  if (takes(GetParam(), "fracture")) {
+    ASSERT_GT(broken_at_cut, 3);
+    ASSERT_GT(whole.counts().broken, broken_at_cut);
+  }
   copy_state(first, second);
   expect_same(first, second);
   for (int n = 40; n < 111; ++n) second.step(dt);

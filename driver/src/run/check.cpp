@@ -34,7 +34,8 @@ void say_bodies(const Scene& scene) {
 // Seconds a step, from a few steps. The model is spoiled for a run afterwards.
 double time_a_step(Scene& scene, const Clock& clock) {
   using WallClock = std::chrono::steady_clock;
-  start_model(scene, clock.dt);
+  const Stepping stepping(scene.deck());
+  stepping.start(scene, clock.dt);
   const auto begin = WallClock::now();
   const auto seconds = [&] {
     return std::chrono::duration<double>(WallClock::now() - begin).count();
@@ -43,7 +44,7 @@ double time_a_step(Scene& scene, const Clock& clock) {
   constexpr double kSeconds = 1.0;
   Index step = 0;
   while (step < std::min(kSteps, clock.steps) && seconds() < kSeconds) {
-    step_model(scene, clock, step++);
+    stepping.step(scene, clock, step++);
   }
   return seconds() / static_cast<double>(step);
 }

@@ -12,7 +12,7 @@
 namespace cleave::driver {
 namespace {
 
-constexpr std::int64_t kFormat = 1;
+constexpr std::int64_t kFormat = 2;
 
 std::string fingerprint() {
   std::uint64_t value = 0;
@@ -56,7 +56,7 @@ io::NamedArray integers(std::string name, std::string description, std::vector<I
   return {std::move(name), "1", std::move(description), 1, std::move(values)};
 }
 
-// What a model does not hold of a body: numbers in the mesh, and sets.
+// What a model does not give back of a body: simplices, numbers in the mesh, and sets.
 void add_geometry(const BodyGeometry& body, io::Archive& archive) {
   archive.arrays.push_back(
       integers(body.name + "/point_ids", "number of the particle in the mesh", body.point_ids));
@@ -67,6 +67,8 @@ void add_geometry(const BodyGeometry& body, io::Archive& archive) {
                                       "particles of mesh group " + body.groups[i].name,
                                       body.groups[i].particles));
   }
+  archive.arrays.push_back({body.name + "/simplices", "1", "particles of every simplex",
+                            body.simplex_nodes(), body.simplices});
   archive.attributes.emplace_back(body.name + ".groups", names);
   archive.attributes.emplace_back(body.name + ".dimension", Index{body.dimension});
 }
@@ -93,20 +95,6 @@ const std::vector<T>& array(const io::Archive& archive, const std::string& name,
   return *typed;
 }
 
-std::vector<Index> simplices_from(const io::Archive& archive, const BodyGeometry& body,
-                                  const std::string& path) {
-  const std::string name = body.name + "/simplex_particles";
-  if (archive.find_array(name) == nullptr) return {};
-  const auto& stored = array<Index>(archive, name, path);
-  const Index width = archive.find_array(name)->components;
-  std::vector<Index> simplices;
-  for (std::size_t first = 0; first < stored.size(); first += at(width)) {
-    simplices.insert(simplices.end(), stored.begin() + static_cast<std::ptrdiff_t>(first),
-                     stored.begin() + static_cast<std::ptrdiff_t>(first) + body.dimension + 1);
-  }
-  return simplices;
-}
-
 BodyGeometry body_from(const io::Archive& archive, const std::string& name,
                        const std::string& path) {
   BodyGeometry body;
@@ -114,7 +102,8 @@ BodyGeometry body_from(const io::Archive& archive, const std::string& name,
   body.dimension = static_cast<int>(attribute<Index>(archive, name + ".dimension", path));
   body.X = array<double>(archive, name + "/reference_position", path);
   body.point_ids = array<Index>(archive, name + "/point_ids", path);
-  body.simplices = simplices_from(archive, body, path);
+  body.simplices = array<Index>(archive, name + "/simplices", path);
+  body.quadratic = archive.find_array(name + "/simplices")->components != body.dimension + 1;
   std::istringstream names(attribute<std::string>(archive, name + ".groups", path));
   Index group = 0;
   for (std::string line; std::getline(names, line);) {

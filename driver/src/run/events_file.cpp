@@ -40,7 +40,7 @@ void EventsFile::reopen(const std::string& path, const Scene& scene, std::int64_
   table_ = io::RecordTable::reopen(path, "", columns(scene), records);
 }
 
-void EventsFile::collect(const Scene& scene, Model& model) {
+void EventsFile::collect(const Scene& scene, Model& model, std::int64_t step) {
   for (std::int64_t body = 0; body < model.bodies(); ++body) {
     std::int64_t count = 0;
     check(cleave_body_event_count(model.handle(), body, &count));
@@ -54,7 +54,7 @@ void EventsFile::collect(const Scene& scene, Model& model) {
         return static_cast<double>(ids[static_cast<std::size_t>(particle)]);
       };
       const std::array<double, 11> record{static_cast<double>(body + 1),
-                                          static_cast<double>(event.step),
+                                          static_cast<double>(step),
                                           event.time,
                                           id(event.first),
                                           id(event.second),

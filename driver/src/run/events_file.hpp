@@ -15,7 +15,7 @@ class EventsFile {
   void create(const std::string& path, const Scene& scene);
   void reopen(const std::string& path, const Scene& scene, std::int64_t records);
   // Takes the events of the last step from the model.
-  void collect(const Scene& scene, Model& model);
+  void collect(const Scene& scene, Model& model, std::int64_t step);
   void flush() { table_->flush(); }
   void sync() { table_->sync(); }
   std::int64_t records() const { return table_->records(); }

@@ -16,7 +16,7 @@ namespace {
 // Largest of the energies that the balance is made of.
 double energy_scale(const cleave_energies& e) {
   return std::max({std::abs(e.external + e.reaction), std::abs(e.kinetic), std::abs(e.elastic),
-                   std::abs(e.fracture)});
+                   std::abs(e.plastic), std::abs(e.fracture)});
 }
 
 std::string bar(double fraction) {

@@ -13,16 +13,20 @@ namespace cleave::driver {
 namespace {
 
 bool in_results(const cleave_field& field) {
-  return field.relation == CLEAVE_RELATION_POINT || field.relation == CLEAVE_RELATION_SIMPLEX;
+  return field.relation == CLEAVE_RELATION_POINT || field.relation == CLEAVE_RELATION_SIMPLEX ||
+         field.relation == CLEAVE_RELATION_INTEGRATION_POINT;
 }
 
-// Fields of all bodies, each name once.
+// Written at nodes; other fields are written for elements.
+bool is_nodal(const cleave_field& field) { return field.relation == CLEAVE_RELATION_POINT; }
+
+// Fields of all bodies, each name once for nodes and once for elements.
 std::vector<cleave_field> all_fields(const Scene& scene) {
   std::vector<cleave_field> fields;
-  std::set<std::string> names;
+  std::set<std::pair<std::string, bool>> names;
   for (Index body = 0; body < scene.model().bodies(); ++body) {
     for (const cleave_field& field : scene.model().fields(body)) {
-      if (names.insert(field.name).second) fields.push_back(field);
+      if (names.insert({field.name, is_nodal(field)}).second) fields.push_back(field);
     }
   }
   return fields;
@@ -52,17 +56,23 @@ std::vector<cleave_field> chosen_fields(const Scene& scene) {
       for (const cleave_field& other : all) {
         if (in_results(other)) known.push_back(other.name);
       }
-      scene.deck().fail(output, "fields",
-                        in_quotes(name) +
-                            (field == all.end() ? " is not a field of this run"
-                                                : " is not a field of particles or simplices") +
-                            "; fields that can be written: " + list(known));
+      scene.deck().fail(
+          output, "fields",
+          in_quotes(name) +
+              (field == all.end()
+                   ? " is not a field of this run"
+                   : " is not a field of particles, simplices or integration points") +
+              "; fields that can be written: " + list(known));
     }
-    chosen.push_back(*field);
+    std::copy_if(field, all.end(), std::back_inserter(chosen), is(name));
   }
   std::vector<cleave_field> once;
   for (const cleave_field& field : chosen) {
-    if (std::none_of(once.begin(), once.end(), is(field.name))) once.push_back(field);
+    if (std::none_of(once.begin(), once.end(), [&](const cleave_field& other) {
+          return std::string(other.name) == field.name && is_nodal(other) == is_nodal(field);
+        })) {
+      once.push_back(field);
+    }
   }
   return once;
 }
@@ -73,8 +83,7 @@ void add_meshes(const Scene& scene, io::ResultLayout& layout) {
     const BodyGeometry& body = scene.bodies()[b];
     layout.points.insert(layout.points.end(), body.X.begin(), body.X.end());
     layout.point_ids.insert(layout.point_ids.end(), body.point_ids.begin(), body.point_ids.end());
-    io::ResultBlock block{body.name,
-                          body.dimension == 2 ? io::CellKind::triangle : io::CellKind::tetrahedron,
+    io::ResultBlock block{body.name, static_cast<io::CellKind>(body.simplex_nodes()),
                           body.simplices};
     for (Index& node : block.nodes) node += first;
     layout.blocks.push_back(std::move(block));
@@ -132,7 +141,7 @@ ResultsFile::ResultsFile(const Scene& scene) {
 void ResultsFile::add_field(const Scene& scene, const cleave_field& field) {
   const bool plane = std::all_of(scene.bodies().begin(), scene.bodies().end(),
                                  [](const BodyGeometry& body) { return body.dimension == 2; });
-  const bool nodal = field.relation == CLEAVE_RELATION_POINT;
+  const bool nodal = is_nodal(field);
   const UnitText units(scene.deck().one("run").text("units"));
   Source source{field.name, field.type == CLEAVE_INTEGER, field.components, {}};
   for (const Component& component : components_of(field.components, plane)) {
@@ -161,8 +170,11 @@ void ResultsFile::fill(const Scene& scene, const Source& source,
     const BodyGeometry& geometry = scene.bodies()[at(body)];
     const bool nodal = &variables == &nodal_values_;
     const std::size_t count = at(nodal ? geometry.particles() : geometry.simplex_count());
-    const bool present = scene.model().find_field(body, source.field).has_value();
-    const std::size_t size = count * at(source.components);
+    const auto field = scene.model().find_field(body, source.field);
+    const bool present = field.has_value() && is_nodal(*field) == nodal;
+    // Integration points of an element; the element shows their mean.
+    const std::size_t points = present && count > 0 ? at(field->count) / count : 1;
+    const std::size_t size = points * count * at(source.components);
     real_.assign(size, 0.0);  // a body without this field shows zero
     if (present && source.integer) {
       integer_.resize(size);
@@ -174,7 +186,10 @@ void ResultsFile::fill(const Scene& scene, const Source& source,
     for (std::size_t k = 0; k < source.written.size(); ++k) {
       std::vector<double>& variable = variables[first + k];
       for (std::size_t i = 0; i < count; ++i) {
-        variable[begin + i] = real_[i * at(source.components) + at(source.written[k])];
+        double sum = 0;
+        for (std::size_t q = points * i; q < points * (i + 1); ++q)
+          sum += real_[q * at(source.components) + at(source.written[k])];
+        variable[begin + i] = sum / static_cast<double>(points);
       }
     }
     begin += count;

@@ -37,26 +37,10 @@ void make_directory(const std::filesystem::path& directory) {
 
 }  // namespace
 
-void start_model(Scene& scene, double dt) {
-  scene.put_initial_velocities();
-  scene.motions().start(scene.model(), dt);
-  scene.forces().apply(scene.model(), 0.0);
-  check(cleave_model_initialise(scene.model().handle(), 0.0));
-}
-
-void step_model(Scene& scene, const Clock& clock, Index step) {
-  Model& model = scene.model();
-  const double t = clock.time(step + 1);
-  scene.motions().before_advance(model, t);
-  check(cleave_model_advance(model.handle(), clock.dt, t));
-  scene.forces().apply(model, t);
-  scene.motions().before_update(model, clock.time(step), t, clock.time(step + 2), clock.dt);
-  check(cleave_model_update(model.handle()));
-}
-
 Simulation::Simulation(Scene& scene, const TimeStep& step, FileNames names, bool quiet)
     : scene_(scene),
       step_(step),
+      stepping_(scene.deck()),
       names_(std::move(names)),
       progress_(quiet, scene.deck().one("run")),
       results_(scene),
@@ -76,7 +60,7 @@ int Simulation::run() {
   events_.create(names_.events(), scene_);
   progress_.banner(scene_, step_, 0);
   try {
-    start_model(scene_, step_.clock.dt);
+    stepping_.start(scene_, step_.clock.dt);
     const cleave_energies energies = finite_energies(0);
     history_.write(scene_, 0, 0.0, energies);
     results_.write_frame(scene_, 0.0, energies);
@@ -124,7 +108,7 @@ int Simulation::loop(Index first_step) {
 
 void Simulation::steps(Index& step, const StopRequest& stop) {
   while (step < step_.clock.steps && !stop.requested()) {
-    step_model(scene_, step_.clock, step);
+    stepping_.step(scene_, step_.clock, step);
     ++step;
     after_step(step);
   }
@@ -136,7 +120,7 @@ void Simulation::steps(Index& step, const StopRequest& stop) {
 }
 
 void Simulation::after_step(Index step) {
-  events_.collect(scene_, scene_.model());
+  events_.collect(scene_, scene_.model(), step);
   write_outputs(step);
   const bool last = step == step_.clock.steps;
   if (checkpoint_schedule_.due(step) && !(last && checkpoint_at_end_)) write_checkpoint(step);

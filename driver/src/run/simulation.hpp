@@ -14,15 +14,11 @@
 #include "run/run.hpp"
 #include "run/schedule.hpp"
 #include "run/signals.hpp"
+#include "run/stepping.hpp"
 #include "run/time_step.hpp"
 #include "scene/scene.hpp"
 
 namespace cleave::driver {
-
-// Puts initial velocities, prescribed values and forces at time 0 and initialises the model.
-void start_model(Scene& scene, double dt);
-// One step of the model from step to step + 1.
-void step_model(Scene& scene, const Clock& clock, std::int64_t step);
 
 class Simulation {
  public:
@@ -48,6 +44,7 @@ class Simulation {
 
   Scene& scene_;
   TimeStep step_;
+  Stepping stepping_;
   FileNames names_;
   Progress progress_;
   ResultsFile results_;

@@ -56,6 +56,11 @@ TimeStep choose_time_step(const Scene& scene) {
   step.stable = scene.model().stable_step();
   step.governed_by = governing_body(scene);
   step.warnings = implausible_units(scene);
+  if (run.text("mode") == "static") {
+    step.clock.steps = scene.deck().one("static").integer("increments");
+    step.clock.dt = t_end / static_cast<double>(step.clock.steps);
+    return step;
+  }
   const double wanted = given > 0 ? given : run.real("step_factor") * step.stable;
   if (!(wanted > 0)) {
     scene.deck().fail(run, "step_factor", "the time step would be zero; give step_factor > 0");

@@ -18,6 +18,7 @@ struct TimeStep {
 
 // time_step given: used as it is, ceil(t_end/dt) steps (the last may pass t_end by less than a
 // step). Automatic: step_factor * stable, reduced so that a whole number of steps ends at t_end.
+// Statics: the load increments.
 // A step above the stable one is refused, or warned of, as step_check says. Throws DeckError.
 TimeStep choose_time_step(const Scene& scene);
 

@@ -117,6 +117,10 @@ void Forces::add(const Deck& deck, const std::vector<BodyGeometry>& bodies, cons
   for (const Selection& selection : selections) {
     const BodyGeometry& body = bodies[at(selection.body)];
     loaded_[at(selection.body)] = 1;
+    if ((kind == "pressure" || kind == "traction") && body.quadratic) {
+      deck.fail(group, "kind",
+                "a " + kind + " cannot act on quadratic elements; use a force or linear elements");
+    }
     if (kind == "pressure") {
       pressed_[at(selection.body)] = 1;
       load.surfaces.push_back({selection.body, surface_facets(body, selection.particles)});

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "io/error.hpp"
 #include "io/lattice.hpp"
@@ -173,6 +174,14 @@ BodyGeometry take_body(const Deck& deck, const DeckGroup& group, const io::Mesh&
     if (!set.particles.empty()) body.groups.push_back(std::move(set));
   }
   take_mesh_cracks(deck, mesh, number_of, body, crack_use);
+  if (group.text("elements") == "quadratic") {
+    if (body.dimension != 2 || group.text("formulation") != "fem") {
+      deck.fail(group, "elements",
+                "quadratic elements are six-node triangles of formulation 'fem' in a plane; use "
+                "elements = 'linear'");
+    }
+    make_quadratic(body);
+  }
   return body;
 }
 
@@ -185,11 +194,41 @@ const NamedSet* BodyGeometry::find_group(const std::string& group) const {
   return nullptr;
 }
 
+void make_quadratic(BodyGeometry& body) {
+  std::map<std::pair<Index, Index>, Index> middle;
+  std::vector<Index> nodes;
+  Index last_id = *std::max_element(body.point_ids.begin(), body.point_ids.end());
+  for (Index s = 0; s < body.simplex_count(); ++s) {
+    const Index* v = &body.simplices[at(s * body.simplex_nodes())];
+    nodes.insert(nodes.end(), v, v + 3);
+    for (int a = 0; a < 3; ++a) {
+      const auto ends = std::minmax(v[a], v[(a + 1) % 3]);
+      const auto [entry, is_new] = middle.try_emplace(ends, body.particles());
+      nodes.push_back(entry->second);
+      if (!is_new) continue;
+      for (Index k = 0; k < 3; ++k) {
+        body.X.push_back(0.5 * (body.X[at(3 * ends.first + k)] + body.X[at(3 * ends.second + k)]));
+      }
+      body.point_ids.push_back(++last_id);
+    }
+  }
+  for (NamedSet& group : body.groups) {
+    const std::set<Index> inside(group.particles.begin(), group.particles.end());
+    for (const auto& [ends, particle] : middle) {
+      if (inside.contains(ends.first) && inside.contains(ends.second))
+        group.particles.push_back(particle);
+    }
+    std::sort(group.particles.begin(), group.particles.end());
+  }
+  body.simplices = std::move(nodes);
+  body.quadratic = true;
+}
+
 double shortest_edge(const BodyGeometry& body) {
   double shortest = std::numeric_limits<double>::infinity();
   const int corners = body.dimension + 1;
   for (Index s = 0; s < body.simplex_count(); ++s) {
-    const Index* v = &body.simplices[at(s * corners)];
+    const Index* v = &body.simplices[at(s * body.simplex_nodes())];
     for (int a = 0; a < corners; ++a) {
       for (int b = a + 1; b < corners; ++b) {
         const double* p = &body.X[at(3 * v[a])];

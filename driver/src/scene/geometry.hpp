@@ -19,9 +19,11 @@ struct NamedSet {
 
 struct BodyGeometry {
   std::string name;
-  int dimension = 3;                    // 2 or 3
-  std::vector<double> X;                // (3, n) reference position [m]
-  std::vector<std::int64_t> simplices;  // (dimension + 1, m)
+  int dimension = 3;      // 2 or 3
+  std::vector<double> X;  // (3, n) reference position [m]
+  std::vector<std::int64_t>
+      simplices;           // (simplex_nodes, m): corners, then middles of edges 12 23 31
+  bool quadratic = false;  // six-node triangles
   std::vector<std::int64_t> point_ids;  // (n) number in the mesh file; split particles get new ones
   std::vector<NamedSet> groups;         // mesh groups that have particles in this body
   // Facets of every &precrack with shape = 'group' and mode = 'delete'; used once, before the first
@@ -29,11 +31,16 @@ struct BodyGeometry {
   std::vector<std::vector<std::int64_t>> crack_facets;
 
   std::int64_t particles() const { return static_cast<std::int64_t>(X.size()) / 3; }
+  std::int64_t simplex_nodes() const { return quadratic ? 6 : dimension + 1; }
   std::int64_t simplex_count() const {
-    return static_cast<std::int64_t>(simplices.size()) / (dimension + 1);
+    return static_cast<std::int64_t>(simplices.size()) / simplex_nodes();
   }
   const NamedSet* find_group(const std::string& group) const;
 };
+
+// Adds the middles of all edges of triangles as particles; a middle belongs to the groups that both
+// ends belong to. Numbers of new particles follow the others.
+void make_quadratic(BodyGeometry& body);
 
 // Length of the shortest edge of the simplices [m].
 double shortest_edge(const BodyGeometry& body);

@@ -19,7 +19,7 @@ std::vector<Candidate> candidates(const BodyGeometry& body, const std::vector<ch
   std::vector<Candidate> found;
   const int corners = body.dimension + 1;
   for (Index s = 0; s < body.simplex_count(); ++s) {
-    const Index* v = &body.simplices[at(s * corners)];
+    const Index* v = &body.simplices[at(s * body.simplex_nodes())];
     for (int opposite = 0; opposite < corners; ++opposite) {
       Candidate candidate{{-1, -1, -1}, v[opposite]};
       std::size_t count = 0;

@@ -237,6 +237,51 @@ CLEAVE_API int32_t cleave_material_stress(int32_t material, int32_t kinematics,
                                           double* history, double* P, double* energy,
                                           int32_t* failed);
 CLEAVE_API int32_t cleave_material_history_count(int32_t material, int64_t* count);
+
+/* A material update in the layout of the host, served where it stands: a(9,n), a(n,9), padded leading
+ * dimensions, other orders of components.  Component c of point q of an array stands at
+ * base[point * q + component * c], strides counted in entries.  `order`: the place c, 0 to 8, of
+ * 11 21 31 12 22 32 13 23 33 in this order; for an array that holds 11 22 33 12 23 31 21 32 13 that
+ * is 0 6 5 3 1 7 8 4 2.  Every array has all nine places, also in two dimensions. */
+typedef struct cleave_material_call {
+  int64_t size;
+  int32_t material;          /* enum cleave_material */
+  int32_t kinematics;        /* enum cleave_kinematics */
+  int64_t property_count;    /* as cleave_material_stress */
+  const double* properties;  /* in the order of cleave_parameter_get */
+  int64_t first, last;       /* points first <= q < last */
+  double dt;                 /* size of the step [s]; 0: statics, no rates */
+  double length;             /* size of a particle, for laws with shock viscosity [m] */
+  const double* deformation; /* H = F - I, which keeps the digits of small strains, or F [1] */
+  int32_t deformation_is_F;  /* 0: H, 1: F */
+  int32_t reserved;
+  int64_t deformation_point, deformation_component; /* default 9, 1 */
+  int64_t deformation_order[9];                     /* default 0 ... 8 */
+  double* history; /* in, out; variables one after another; NULL if the law has none */
+  int64_t history_point, history_component; /* default 0 (as many as the law has), 1 */
+  double* stress;                           /* out: first Piola-Kirchhoff stress P [Pa] */
+  int64_t stress_point, stress_component;   /* default 9, 1 */
+  int64_t stress_order[9];                  /* default 0 ... 8 */
+  double* energy;        /* out: stored, per reference volume [J m-3]; may be NULL */
+  int64_t energy_point;  /* default 1 */
+  double* plastic;       /* out: dissipated by plastic flow in this update [J m-3]; may be NULL */
+  int64_t plastic_point; /* default 1 */
+  int32_t* failed;       /* out: 1 where the law has no answer; may be NULL */
+  int64_t failed_point;  /* default 1 */
+  double* tangent;       /* out, cleave_material_tangent: dP_a/dF_b at place a + 9 b [Pa] */
+  int64_t tangent_point, tangent_component; /* default 81, 1 */
+} cleave_material_call;
+/* Defaults: contiguous arrays in the order of this interface, all pointers NULL. */
+CLEAVE_API int32_t cleave_material_call_init(cleave_material_call* call);
+/* Stress, energies and history of the points.  Where the law has no answer P and energies are zero,
+ * the history untouched and failed 1; BAD_JACOBIAN is returned after all points have been done.
+ * A point gets the same bits for any layout and range. */
+CLEAVE_API int32_t cleave_material_update(const cleave_material_call* call);
+/* Consistent tangent of the step from the history, which is left alone; stress, energy and plastic
+ * are not used.  In two dimensions the in-plane components, with P33 = 0 kept in plane stress; the
+ * others are zero.  Call it before cleave_material_update. */
+CLEAVE_API int32_t cleave_material_tangent(const cleave_material_call* call);
+
 /* Longitudinal wave speed of the undeformed material (plane stress: plate speed) [m s-1]. */
 CLEAVE_API int32_t cleave_material_wave_speed(int32_t material, int32_t kinematics,
                                               int64_t property_count, const double* properties,
@@ -311,7 +356,8 @@ CLEAVE_API int32_t cleave_model_setup(cleave_model* model);
 CLEAVE_API int32_t cleave_body_precrack(cleave_model* model, int64_t body, int64_t count,
                                         const int64_t* pairs);
 
-/* Largest step that the formulations call stable, with their safety [s].   theory: time step */
+/* Largest step that the formulations call stable, with their safety [s], shortened by the present
+ * deformation.   theory: time step */
 CLEAVE_API int32_t cleave_model_stable_step(cleave_model* model, double* step);
 CLEAVE_API int32_t cleave_body_wave_speed(cleave_model* model, int64_t body, double* speed);
 
@@ -335,6 +381,30 @@ CLEAVE_API int32_t cleave_body_motion(cleave_model* model, int64_t body, int64_t
 CLEAVE_API int32_t cleave_model_initialise(cleave_model* model, double time);
 CLEAVE_API int32_t cleave_model_advance(cleave_model* model, double dt, double time_new);
 CLEAVE_API int32_t cleave_model_update(cleave_model* model);
+
+/* ---- statics: once initialise, then for every load increment motion (displacements at its end),
+ * external_force, solve_static.  Newton's method with the consistent tangent; inertia, viscosity and
+ * rates play no part; prescribed degrees of freedom go where cleave_body_motion says. */
+typedef struct cleave_static_options {
+  int64_t size;
+  double tolerance;       /* norm of the residual over that of all forces; default 1e-9 */
+  int32_t max_iterations; /* default 25 */
+  int32_t reserved;
+} cleave_static_options;
+typedef struct cleave_static_report {
+  int64_t size;
+  int64_t iterations; /* the largest of the bodies */
+  int64_t unknowns;   /* of all bodies */
+  double residual;    /* relative, the largest of the bodies */
+} cleave_static_report;
+CLEAVE_API int32_t cleave_static_options_init(cleave_static_options* options);
+/* From the present equilibrium to the next, at time_new (a label: loads are functions of it).
+ * [in]  options: NULL for the defaults      [out] report: may be NULL; report->size must be set
+ * Errors: NO_CONVERGENCE (also BAD_JACOBIAN of the law), the state is as before the call: try a smaller
+ * increment; UNSUPPORTED (a body has forces that are not its gradient operator's). */
+CLEAVE_API int32_t cleave_model_solve_static(cleave_model* model, double time_new,
+                                             const cleave_static_options* options,
+                                             cleave_static_report* report);
 
 /* Bonds broken by the steps since the last cleave_body_clear_events. */
 typedef struct cleave_event {

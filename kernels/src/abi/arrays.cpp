@@ -2,12 +2,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "abi/guard.hpp"
+#include "abi/checks.hpp"
 #include "core/gradient_operator.hpp"
 #include "core/ramp.hpp"
 #include "formulation/cbm/bonds.hpp"
 #include "formulation/cbm/viscosity.hpp"
-#include "material/stress.hpp"
 
 using namespace cleave;
 using namespace cleave::abi;
@@ -16,67 +15,6 @@ using cleave::cbm::BondRate;
 namespace {
 
 using HostOperator = GradientOperator<std::int64_t, std::int64_t>;
-
-void check_dimension(std::int32_t dimension) {
-  if (dimension != 2 && dimension != 3) {
-    throw Error(CLEAVE_BAD_ARGUMENT, text("dimension is ", dimension, "; allowed: 2, 3"));
-  }
-}
-
-void check_rows(std::int64_t first, std::int64_t last) {
-  if (first < 0 || last < first) {
-    throw Error(CLEAVE_BAD_RANGE,
-                text("range ", first, " <= i < ", last, " is not a range of particles"));
-  }
-}
-
-// F applied with D as a compile-time number.
-template <class F>
-void with_dimension(std::int32_t dimension, const F& f) {
-  check_dimension(dimension);
-  if (dimension == 2) {
-    f(std::integral_constant<int, 2>{});
-  } else {
-    f(std::integral_constant<int, 3>{});
-  }
-}
-
-void check_kinematics(std::int32_t kinematics) {
-  if (kinematics < CLEAVE_3D || kinematics > CLEAVE_PLANE_STRESS) {
-    throw Error(CLEAVE_BAD_ARGUMENT,
-                text("kinematics is ", kinematics, "; see enum cleave_kinematics (1 to 3)"));
-  }
-}
-
-Material make_checked(std::int32_t material, std::int32_t kinematics, std::int64_t count,
-                      const double* properties) {
-  check_kinematics(kinematics);
-  const MaterialEntry& entry = find_material(material);
-  if (count != static_cast<std::int64_t>(entry.parameters.size())) {
-    throw Error(CLEAVE_BAD_ARGUMENT,
-                text("law ", entry.name, " takes ", entry.parameters.size(), " properties, not ",
-                     count, "; see cleave_parameter_get"));
-  }
-  required(properties, "properties");
-  ParameterSet checked(text("material law ", entry.name), entry.parameters);
-  for (std::size_t k = 0; k < entry.parameters.size(); ++k)
-    checked.set_real(entry.parameters[k].name, properties[k]);
-  return entry.make(checked.values(), static_cast<Kinematics>(kinematics));
-}
-
-// History packed as (nh,n): all variables of a point one after another.
-HistoryArrays packed_history(const MaterialEntry& entry, double* history) {
-  HistoryArrays arrays;
-  int total = 0;
-  for (const auto& h : entry.history) total += h.components;
-  int offset = 0;
-  for (std::size_t k = 0; k < entry.history.size(); ++k) {
-    arrays.base[k] = &required(history, "history") + offset;
-    arrays.stride[k] = total;
-    offset += entry.history[k].components;
-  }
-  return arrays;
-}
 
 }  // namespace
 
@@ -190,52 +128,6 @@ int32_t cleave_bond_viscosity(int32_t dimension, int64_t first, int64_t last,
     with_dimension(dimension, [&](auto d) {
       cbm::viscous_force_frozen<d>(g, rate, w, x, v, J, first, last, f);
     });
-  });
-}
-
-int32_t cleave_material_stress(int32_t material, int32_t kinematics, int64_t property_count,
-                               const double* properties, int64_t first, int64_t last,
-                               const double* H, double* history, double* P, double* energy,
-                               int32_t* failed) {
-  int64_t bad = -1;
-  const int32_t status = guarded("cleave_material_stress", [&] {
-    check_rows(first, last);
-    required(H, "H");
-    const Material made = make_checked(material, kinematics, property_count, properties);
-    StressArrays arrays;
-    arrays.h = H;
-    arrays.history = packed_history(find_material(material), history);
-    arrays.p = P;
-    arrays.energy = energy;
-    arrays.failed = failed;
-    std::fill(&required(P, "P") + kTensor * first, P + kTensor * last, 0.0);
-    with_dimension(dimension_of(static_cast<Kinematics>(kinematics)), [&](auto d) {
-      bad = with_law(made, [&](const auto& law) {
-        return update_stress<d>(law, arrays, first, last).first_failed;
-      });
-    });
-    if (bad >= 0) {
-      throw Error(CLEAVE_BAD_JACOBIAN,
-                  text("law ", find_material(material).name, " has no answer at point ", bad,
-                       "; its stress is zero and its history untouched; see `failed` for others"));
-    }
-  });
-  return status;
-}
-
-int32_t cleave_material_history_count(int32_t material, int64_t* count) {
-  return guarded("cleave_material_history_count", [&] {
-    int64_t n = 0;
-    for (const auto& h : find_material(material).history) n += h.components;
-    required(count, "count") = n;
-  });
-}
-
-int32_t cleave_material_wave_speed(int32_t material, int32_t kinematics, int64_t property_count,
-                                   const double* properties, double* speed) {
-  return guarded("cleave_material_wave_speed", [&] {
-    const Material made = make_checked(material, kinematics, property_count, properties);
-    required(speed, "speed") = with_law(made, [](const auto& law) { return law.wave_speed(); });
   });
 }
 

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "abi/guard.hpp"
+#include "solver/static_solver.hpp"
 
 using namespace cleave;
 using namespace cleave::abi;
@@ -227,6 +228,36 @@ int32_t cleave_model_advance(cleave_model* model, double dt, double time_new) {
         Phase::stepping,
         "cleave_model_advance comes after cleave_model_initialise or cleave_model_update");
     advance(*model, dt, time_new);
+  });
+}
+
+int32_t cleave_static_options_init(cleave_static_options* options) {
+  return guarded("cleave_static_options_init", [&] {
+    const StaticOptions defaults;
+    required(options, "options") = {sizeof(cleave_static_options), defaults.tolerance,
+                                    defaults.max_iterations, 0};
+  });
+}
+
+int32_t cleave_model_solve_static(cleave_model* model, double time_new,
+                                  const cleave_static_options* options,
+                                  cleave_static_report* report) {
+  return guarded("cleave_model_solve_static", [&] {
+    checked(model).require(Phase::stepping,
+                           "statics start after cleave_model_initialise, between two steps");
+    StaticOptions wanted;
+    if (options != nullptr) {
+      if (options->size != static_cast<int64_t>(sizeof(cleave_static_options))) {
+        throw Error(CLEAVE_ABI_MISMATCH, text("cleave_static_options has size ", options->size,
+                                              "; fill it with cleave_static_options_init"));
+      }
+      wanted = {options->tolerance, options->max_iterations};
+    }
+    const StaticReport done = solve_static(*model, time_new, wanted);
+    if (report != nullptr) {
+      fill_sized(report, cleave_static_report{0, done.iterations, done.unknowns, done.residual},
+                 "report");
+    }
   });
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "core/error.hpp"
 #include "core/tensor.hpp"
@@ -108,28 +107,35 @@ void fill_reverse(NeighbourRows& rows) {
 }  // namespace
 
 NeighbourRows neighbours_within(const double* X, std::int64_t n, double radius, Radius rule,
-                                const std::string& owner) {
+                                const std::string& owner, std::int64_t most) {
   const CellGrid grid(X, n, radius);
   const double limit = radius * radius * (rule == Radius::open ? 1 - kTolerance : 1 + kTolerance);
-  NeighbourRows rows;
-  rows.row_begin.assign(static_cast<std::size_t>(n) + 1, 0);
-  for (std::int64_t i = 0; i < n; ++i) {
-    const std::size_t first = rows.neighbour.size();
+  const auto for_row = [&](std::int64_t i, const auto& f) {
     grid.for_near(i, [&](std::int32_t p) {
       const Vec<3> d = difference<3>(X, i, p);
-      if (p != i && dot(d, d) < limit) rows.neighbour.push_back(p);
+      if (p != i && dot(d, d) < limit) f(p);
     });
-    std::sort(rows.neighbour.begin() + static_cast<std::ptrdiff_t>(first), rows.neighbour.end());
-    if (rows.neighbour.size() >
-        static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
+  };
+  // Counted first: the rows are large, and too large ones must not be stored to be refused.
+  NeighbourRows rows;
+  rows.row_begin.assign(static_cast<std::size_t>(n) + 1, 0);
+  std::int64_t count = 0;
+  for (std::int64_t i = 0; i < n; ++i) {
+    for_row(i, [&](std::int32_t) { ++count; });
+    if (count > most) {
       throw Error(CLEAVE_BAD_ARGUMENT,
                   text(owner, " has more than 2^31 half-bonds within the radius ", radius,
-                       " [m] of its particles (already ",
-                       rows.neighbour.size() / static_cast<std::size_t>(i + 1),
-                       " for each); use a smaller radius, or split it into bodies"));
+                       " [m] of its particles (", count / (i + 1),
+                       " for each so far); use a smaller radius, or split it into bodies"));
     }
-    rows.row_begin[static_cast<std::size_t>(i) + 1] =
-        static_cast<std::int32_t>(rows.neighbour.size());
+    rows.row_begin[static_cast<std::size_t>(i) + 1] = static_cast<std::int32_t>(count);
+  }
+  rows.neighbour.resize(static_cast<std::size_t>(count));
+  for (std::int64_t i = 0; i < n; ++i) {
+    const auto first = rows.neighbour.begin() + rows.row_begin[static_cast<std::size_t>(i)];
+    auto next = first;
+    for_row(i, [&](std::int32_t p) { *next++ = p; });
+    std::sort(first, next);
   }
   fill_reverse(rows);
   return rows;

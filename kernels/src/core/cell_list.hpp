@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -22,9 +23,11 @@ struct NeighbourRows {
   std::vector<std::int32_t> reverse;    // (h) place of (p,i) for the half-bond (i,p)
 };
 
+inline constexpr std::int64_t kMostHalfBonds = std::numeric_limits<std::int32_t>::max();
+
 // [in] X (3,n) [m], third component 0 in two dimensions; radius > 0 [m]; owner: for the message
-// Throws BAD_ARGUMENT above 2^31 half-bonds.
+// Throws BAD_ARGUMENT above `most` half-bonds.
 NeighbourRows neighbours_within(const double* X, std::int64_t n, double radius, Radius rule,
-                                const std::string& owner);
+                                const std::string& owner, std::int64_t most = kMostHalfBonds);
 
 }  // namespace cleave

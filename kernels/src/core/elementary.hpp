@@ -10,17 +10,18 @@ namespace cleave {
 
 namespace elementary {
 
-// ln 2 in two parts; the first has 21 trailing zero bits, so that its product with an exponent is exact.
-inline constexpr double kLn2High = 0x1.62e42fep-1, kLn2Low = 0x1.efa39ef35793cp-33;
+// ln 2 in two parts; the first has 20 trailing zero bits, so that its product with an exponent is
+// exact.
+inline constexpr double kLn2High = 0x1.62e42feep-1, kLn2Low = 0x1.a39ef35793c76p-33;
 inline constexpr double kInverseLn2 = 0x1.71547652b82fep0;
 
 // expm1(r) for |r| <= ln(2)/2: Taylor to r^13; the next term is 1e-17 of r.
 template <class R>
-inline R expm1_reduced(const R& r) {
-  constexpr double kInverseFactorial[] = {
-      1.0 / 2,          1.0 / 6,           1.0 / 24,           1.0 / 120,
-      1.0 / 720,        1.0 / 5040,        1.0 / 40320,        1.0 / 362880,
-      1.0 / 3628800,    1.0 / 39916800,    1.0 / 479001600,    1.0 / 6227020800.0};
+CLEAVE_INLINE R expm1_reduced(const R& r) {
+  constexpr double kInverseFactorial[] = {1.0 / 2,        1.0 / 6,         1.0 / 24,
+                                          1.0 / 120,      1.0 / 720,       1.0 / 5040,
+                                          1.0 / 40320,    1.0 / 362880,    1.0 / 3628800,
+                                          1.0 / 39916800, 1.0 / 479001600, 1.0 / 6227020800.0};
   const R r2 = r * r, r4 = r2 * r2;
   // Four interleaved quartets instead of one chain of twelve.
   const R low = (kInverseFactorial[0] + r * kInverseFactorial[1]) +
@@ -38,6 +39,14 @@ inline R reduce(const R& x, R& k) {
   return (x - k * kLn2High) - k * kLn2Low;
 }
 
+template <class R>
+[[gnu::noinline]] R expm1_wide(const R& x) {
+  R k;
+  const R r = reduce(larger(smaller(x, R(709.0)), R(-50.0)), k);
+  const R scale = power_of_two(k);
+  return scale * expm1_reduced(r) + (scale - 1.0);
+}
+
 }  // namespace elementary
 
 // e^x; x is cut to [-708, 709].
@@ -50,11 +59,10 @@ inline R exponential(const R& x) {
 
 // e^x - 1 with all digits for small x; x is cut to [-50, 709] (e^-50 is lost beside 1).
 template <class R>
-inline R exponential_minus_one(const R& x) {
-  R k;
-  const R r = elementary::reduce(larger(smaller(x, R(709.0)), R(-50.0)), k);
-  const R scale = power_of_two(k);
-  return scale * elementary::expm1_reduced(r) + (scale - 1.0);
+CLEAVE_INLINE R exponential_minus_one(const R& x) {
+  // Here k = 0 below, which gives these bits.
+  if (all(absolute(x) < 0.34)) return elementary::expm1_reduced(x);
+  return elementary::expm1_wide(x);
 }
 
 // ln(1+x) with all digits for small x; x > -1 and 1+x normal and below 2^1022.

@@ -9,21 +9,91 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 
 #if defined(__SSE2__)
 #include <immintrin.h>
 #endif
 
+// For functions whose arguments would otherwise travel through memory.
+#define CLEAVE_INLINE [[gnu::always_inline]] inline
+
 namespace cleave {
 
-// Doubles in one register of the instruction set that this file is compiled for. GCC 12 splits wider
-// vector types into scalar code, so that a Pack of more lanes is an array of registers.
-#if defined(__AVX512F__)
-inline constexpr int kNativeLanes = 8;
-#elif defined(__AVX__)
+// Doubles in one register of the instruction set that this file is compiled for. A Pack of more lanes
+// is an array of registers: GCC 12 splits wider vector types into scalar code.
+#if defined(__AVX__)
 inline constexpr int kNativeLanes = 4;
 #else
 inline constexpr int kNativeLanes = 2;
+#endif
+
+// One register of N doubles. Masks are registers too, all bits of a lane set or none. By intrinsics:
+// GCC 12 turns comparisons and selections of its own vector types into scalar moves for SSE2.
+template <int N>
+struct Native {
+  typedef double Reals __attribute__((vector_size(8 * N)));
+  typedef std::int64_t Bits __attribute__((vector_size(8 * N)));
+
+  static Reals less(Reals a, Reals b) { return reinterpret_cast<Reals>(a < b); }
+  static Reals less_equal(Reals a, Reals b) { return reinterpret_cast<Reals>(a <= b); }
+  static Reals equal(Reals a, Reals b) { return reinterpret_cast<Reals>(a == b); }
+  static Reals both(Reals a, Reals b) {
+    return reinterpret_cast<Reals>(reinterpret_cast<Bits>(a) & reinterpret_cast<Bits>(b));
+  }
+  static Reals either(Reals a, Reals b) {
+    return reinterpret_cast<Reals>(reinterpret_cast<Bits>(a) | reinterpret_cast<Bits>(b));
+  }
+  static Reals without(Reals a, Reals b) {  // b where not a
+    return reinterpret_cast<Reals>(~reinterpret_cast<Bits>(a) & reinterpret_cast<Bits>(b));
+  }
+  static Reals root(Reals a) {
+    double lanes[N];
+    std::memcpy(lanes, &a, sizeof a);
+    for (double& x : lanes) x = std::sqrt(x);
+    std::memcpy(&a, lanes, sizeof a);
+    return a;
+  }
+  static bool any(Reals m) {
+    std::int64_t lanes[N], together = 0;
+    std::memcpy(lanes, &m, sizeof m);
+    for (const std::int64_t x : lanes) together |= x;
+    return together != 0;
+  }
+  static bool all(Reals m) { return !any(without(m, equal(Reals{}, Reals{}))); }
+};
+
+#if defined(__SSE2__)
+template <>
+struct Native<2> {
+  typedef __m128d Reals;
+  typedef __m128i Bits;
+  static Reals less(Reals a, Reals b) { return _mm_cmplt_pd(a, b); }
+  static Reals less_equal(Reals a, Reals b) { return _mm_cmple_pd(a, b); }
+  static Reals equal(Reals a, Reals b) { return _mm_cmpeq_pd(a, b); }
+  static Reals both(Reals a, Reals b) { return _mm_and_pd(a, b); }
+  static Reals either(Reals a, Reals b) { return _mm_or_pd(a, b); }
+  static Reals without(Reals a, Reals b) { return _mm_andnot_pd(a, b); }
+  static Reals root(Reals a) { return _mm_sqrt_pd(a); }
+  static bool any(Reals m) { return _mm_movemask_pd(m) != 0; }
+  static bool all(Reals m) { return _mm_movemask_pd(m) == 3; }
+};
+#endif
+#if defined(__AVX__)
+template <>
+struct Native<4> {
+  typedef __m256d Reals;
+  typedef __m256i Bits;
+  static Reals less(Reals a, Reals b) { return _mm256_cmp_pd(a, b, _CMP_LT_OS); }
+  static Reals less_equal(Reals a, Reals b) { return _mm256_cmp_pd(a, b, _CMP_LE_OS); }
+  static Reals equal(Reals a, Reals b) { return _mm256_cmp_pd(a, b, _CMP_EQ_OQ); }
+  static Reals both(Reals a, Reals b) { return _mm256_and_pd(a, b); }
+  static Reals either(Reals a, Reals b) { return _mm256_or_pd(a, b); }
+  static Reals without(Reals a, Reals b) { return _mm256_andnot_pd(a, b); }
+  static Reals root(Reals a) { return _mm256_sqrt_pd(a); }
+  static bool any(Reals m) { return _mm256_movemask_pd(m) != 0; }
+  static bool all(Reals m) { return _mm256_movemask_pd(m) == 15; }
+};
 #endif
 
 // N: lanes a register; part of the type, so that translation units for different instruction sets
@@ -31,7 +101,7 @@ inline constexpr int kNativeLanes = 2;
 template <int W, int N = (W < kNativeLanes ? W : kNativeLanes)>
 struct Mask {
   static_assert(W % N == 0);
-  typedef std::int64_t Register __attribute__((vector_size(8 * N)));
+  using Register = typename Native<N>::Reals;
   static constexpr int kRegisters = W / N;
   Register r[kRegisters];
 };
@@ -39,7 +109,7 @@ struct Mask {
 template <int W, int N = (W < kNativeLanes ? W : kNativeLanes)>
 struct Pack {
   static_assert(W % N == 0);
-  typedef double Register __attribute__((vector_size(8 * N)));
+  using Register = typename Native<N>::Reals;
   static constexpr int kRegisters = W / N;
   Register r[kRegisters];
 
@@ -67,20 +137,20 @@ using MaskOf = typename LaneTraits<R>::Mask;
 template <class R>
 inline constexpr int kLanesOf = LaneTraits<R>::kLanes;
 
-#define CLEAVE_LANES_ARITHMETIC(op)                                                \
-  template <int W, int N>                                                          \
-  inline Pack<W, N> operator op(const Pack<W, N>& a, const Pack<W, N>& b) {        \
-    Pack<W, N> c;                                                                  \
-    for (int k = 0; k < Pack<W, N>::kRegisters; ++k) c.r[k] = a.r[k] op b.r[k];    \
-    return c;                                                                      \
-  }                                                                                \
-  template <int W, int N>                                                          \
-  inline Pack<W, N> operator op(const Pack<W, N>& a, double b) {                   \
-    return a op Pack<W, N>(b);                                                     \
-  }                                                                                \
-  template <int W, int N>                                                          \
-  inline Pack<W, N> operator op(double a, const Pack<W, N>& b) {                   \
-    return Pack<W, N>(a) op b;                                                     \
+#define CLEAVE_LANES_ARITHMETIC(op)                                             \
+  template <int W, int N>                                                       \
+  inline Pack<W, N> operator op(const Pack<W, N>& a, const Pack<W, N>& b) {     \
+    Pack<W, N> c;                                                               \
+    for (int k = 0; k < Pack<W, N>::kRegisters; ++k) c.r[k] = a.r[k] op b.r[k]; \
+    return c;                                                                   \
+  }                                                                             \
+  template <int W, int N>                                                       \
+  inline Pack<W, N> operator op(const Pack<W, N>& a, double b) {                \
+    return a op Pack<W, N>(b);                                                  \
+  }                                                                             \
+  template <int W, int N>                                                       \
+  inline Pack<W, N> operator op(double a, const Pack<W, N>& b) {                \
+    return Pack<W, N>(a) op b;                                                  \
   }
 CLEAVE_LANES_ARITHMETIC(+)
 CLEAVE_LANES_ARITHMETIC(-)
@@ -88,16 +158,27 @@ CLEAVE_LANES_ARITHMETIC(*)
 CLEAVE_LANES_ARITHMETIC(/)
 #undef CLEAVE_LANES_ARITHMETIC
 
-#define CLEAVE_LANES_COMPARISON(op)                                                \
-  template <int W, int N>                                                          \
-  inline Mask<W, N> operator op(const Pack<W, N>& a, const Pack<W, N>& b) {        \
-    Mask<W, N> m;                                                                  \
-    for (int k = 0; k < Pack<W, N>::kRegisters; ++k) m.r[k] = a.r[k] op b.r[k];    \
-    return m;                                                                      \
-  }                                                                                \
-  template <int W, int N>                                                          \
-  inline Mask<W, N> operator op(const Pack<W, N>& a, double b) {                   \
-    return a op Pack<W, N>(b);                                                     \
+#define CLEAVE_LANES_BY_REGISTER(Result, name, Argument, expression)                   \
+  template <int W, int N>                                                              \
+  inline Result<W, N> name(const Argument<W, N>& a, const Argument<W, N>& b) {         \
+    Result<W, N> c;                                                                    \
+    for (int k = 0; k < Result<W, N>::kRegisters; ++k) c.r[k] = Native<N>::expression; \
+    return c;                                                                          \
+  }
+CLEAVE_LANES_BY_REGISTER(Mask, operator<, Pack, less(a.r[k], b.r[k]))
+CLEAVE_LANES_BY_REGISTER(Mask, operator<=, Pack, less_equal(a.r[k], b.r[k]))
+CLEAVE_LANES_BY_REGISTER(Mask, operator>, Pack, less(b.r[k], a.r[k]))
+CLEAVE_LANES_BY_REGISTER(Mask, operator>=, Pack, less_equal(b.r[k], a.r[k]))
+CLEAVE_LANES_BY_REGISTER(Mask, equal, Pack, equal(a.r[k], b.r[k]))
+CLEAVE_LANES_BY_REGISTER(Mask, operator&, Mask, both(a.r[k], b.r[k]))
+CLEAVE_LANES_BY_REGISTER(Mask, operator|, Mask, either(a.r[k], b.r[k]))
+CLEAVE_LANES_BY_REGISTER(Mask, except, Mask, without(b.r[k], a.r[k]))  // a and not b
+#undef CLEAVE_LANES_BY_REGISTER
+
+#define CLEAVE_LANES_COMPARISON(op)                              \
+  template <int W, int N>                                        \
+  inline Mask<W, N> operator op(const Pack<W, N>& a, double b) { \
+    return a op Pack<W, N>(b);                                   \
   }
 CLEAVE_LANES_COMPARISON(<)
 CLEAVE_LANES_COMPARISON(<=)
@@ -105,22 +186,9 @@ CLEAVE_LANES_COMPARISON(>)
 CLEAVE_LANES_COMPARISON(>=)
 #undef CLEAVE_LANES_COMPARISON
 
-#define CLEAVE_LANES_LOGIC(op)                                                     \
-  template <int W, int N>                                                          \
-  inline Mask<W, N> operator op(const Mask<W, N>& a, const Mask<W, N>& b) {        \
-    Mask<W, N> m;                                                                  \
-    for (int k = 0; k < Mask<W, N>::kRegisters; ++k) m.r[k] = a.r[k] op b.r[k];    \
-    return m;                                                                      \
-  }
-CLEAVE_LANES_LOGIC(&)
-CLEAVE_LANES_LOGIC(|)
-#undef CLEAVE_LANES_LOGIC
-
 template <int W, int N>
 inline Mask<W, N> operator!(const Mask<W, N>& a) {
-  Mask<W, N> m;
-  for (int k = 0; k < Mask<W, N>::kRegisters; ++k) m.r[k] = ~a.r[k];
-  return m;
+  return except(equal(Pack<W, N>(0.0), Pack<W, N>(0.0)), a);
 }
 template <int W, int N>
 inline Pack<W, N> operator-(const Pack<W, N>& a) {
@@ -133,32 +201,25 @@ inline bool any(bool m) { return m; }
 inline bool all(bool m) { return m; }
 template <int W, int N>
 inline bool any(const Mask<W, N>& m) {
-  typename Mask<W, N>::Register together = m.r[0];
-  for (int k = 1; k < Mask<W, N>::kRegisters; ++k) together |= m.r[k];
-#if defined(__AVX512F__)
-  if constexpr (N == 8) return _mm512_movepi64_mask(reinterpret_cast<__m512i>(together)) != 0;
-#endif
-#if defined(__AVX__)
-  if constexpr (N == 4) return _mm256_movemask_pd(reinterpret_cast<__m256d>(together)) != 0;
-#endif
-#if defined(__SSE2__)
-  if constexpr (N == 2) return _mm_movemask_pd(reinterpret_cast<__m128d>(together)) != 0;
-#endif
-  for (int l = 0; l < N; ++l)
-    if (together[l] != 0) return true;
-  return false;
+  auto together = m.r[0];
+  for (int k = 1; k < Mask<W, N>::kRegisters; ++k) together = Native<N>::either(together, m.r[k]);
+  return Native<N>::any(together);
 }
 template <int W, int N>
 inline bool all(const Mask<W, N>& m) {
-  return !any(!m);
+  auto together = m.r[0];
+  for (int k = 1; k < Mask<W, N>::kRegisters; ++k) together = Native<N>::both(together, m.r[k]);
+  return Native<N>::all(together);
 }
 
 // a where m, else b: both are computed, so neither may trap.
 inline double select(bool m, double a, double b) { return m ? a : b; }
 template <int W, int N>
 inline Pack<W, N> select(const Mask<W, N>& m, const Pack<W, N>& a, const Pack<W, N>& b) {
+  using Register = Native<N>;
   Pack<W, N> c;
-  for (int k = 0; k < Pack<W, N>::kRegisters; ++k) c.r[k] = m.r[k] ? a.r[k] : b.r[k];
+  for (int k = 0; k < Pack<W, N>::kRegisters; ++k)
+    c.r[k] = Register::either(Register::both(m.r[k], a.r[k]), Register::without(m.r[k], b.r[k]));
   return c;
 }
 
@@ -170,7 +231,9 @@ inline double lane(const Pack<W, N>& a, int l) {
 }
 template <int W, int N>
 inline bool lane(const Mask<W, N>& m, int l) {
-  return m.r[l / N][l % N] != 0;
+  std::int64_t bits;
+  std::memcpy(&bits, reinterpret_cast<const char*>(&m) + 8 * l, sizeof bits);
+  return bits != 0;
 }
 inline void set_lane(double& x, int, double value) { x = value; }
 inline void set_lane(bool& m, int, bool value) { m = value; }
@@ -180,51 +243,33 @@ inline void set_lane(Pack<W, N>& a, int l, double value) {
 }
 template <int W, int N>
 inline void set_lane(Mask<W, N>& m, int l, bool value) {
-  m.r[l / N][l % N] = value ? -1 : 0;
+  const std::int64_t bits = value ? -1 : 0;
+  std::memcpy(reinterpret_cast<char*>(&m) + 8 * l, &bits, sizeof bits);
 }
 
 inline double square_root(double x) { return std::sqrt(x); }
 template <int W, int N>
 inline Pack<W, N> square_root(const Pack<W, N>& a) {
   Pack<W, N> c;
-  for (int k = 0; k < Pack<W, N>::kRegisters; ++k) {
-#if defined(__AVX512F__)
-    if constexpr (N == 8) c.r[k] = _mm512_sqrt_pd(a.r[k]);
-#endif
-#if defined(__AVX__)
-    if constexpr (N == 4) c.r[k] = _mm256_sqrt_pd(a.r[k]);
-#endif
-#if defined(__SSE2__)
-    if constexpr (N == 2) c.r[k] = _mm_sqrt_pd(a.r[k]);
-#else
-    for (int l = 0; l < N; ++l) c.r[k][l] = std::sqrt(a.r[k][l]);
-#endif
-  }
+  for (int k = 0; k < Pack<W, N>::kRegisters; ++k) c.r[k] = Native<N>::root(a.r[k]);
   return c;
 }
 
 inline double absolute(double x) { return std::fabs(x); }
 template <int W, int N>
 inline Pack<W, N> absolute(const Pack<W, N>& a) {
-  using Bits = typename Mask<W, N>::Register;
-  using Reals = typename Pack<W, N>::Register;
   Pack<W, N> c;
-  for (int k = 0; k < Pack<W, N>::kRegisters; ++k)
-    c.r[k] = reinterpret_cast<Reals>(reinterpret_cast<Bits>(a.r[k]) & 0x7fffffffffffffffll);
+  const Pack<W, N> sign(-0.0);
+  for (int k = 0; k < Pack<W, N>::kRegisters; ++k) c.r[k] = Native<N>::without(sign.r[k], a.r[k]);
   return c;
 }
 
-// Of the bits alone: no comparison that a quiet NaN would make raise a flag.
-inline bool is_finite(double x) {
-  return (std::bit_cast<std::int64_t>(x) & 0x7ff0000000000000ll) != 0x7ff0000000000000ll;
-}
-template <int W, int N>
-inline Mask<W, N> is_finite(const Pack<W, N>& a) {
-  using Bits = typename Mask<W, N>::Register;
-  Mask<W, N> m;
-  for (int k = 0; k < Pack<W, N>::kRegisters; ++k)
-    m.r[k] = (reinterpret_cast<Bits>(a.r[k]) & 0x7ff0000000000000ll) != 0x7ff0000000000000ll;
-  return m;
+// By equality alone: unlike an order, it raises no flag for a quiet NaN.
+inline bool equal(double a, double b) { return a == b; }
+inline bool except(bool a, bool b) { return a && !b; }
+template <class R>
+inline MaskOf<R> is_finite(const R& x) {
+  return except(equal(x, x), equal(absolute(x), R(std::numeric_limits<double>::infinity())));
 }
 
 // The nearest integer of |x| < 2^51, ties to even.
@@ -241,7 +286,7 @@ inline double power_of_two(double k) {
 }
 template <int W, int N>
 inline Pack<W, N> power_of_two(const Pack<W, N>& k) {
-  using Bits = typename Mask<W, N>::Register;
+  typedef std::uint64_t Bits __attribute__((vector_size(8 * N)));
   using Reals = typename Pack<W, N>::Register;
   Pack<W, N> c;
   for (int n = 0; n < Pack<W, N>::kRegisters; ++n)

@@ -1,11 +1,17 @@
 // The formulations table as objects: the one file that knows every formulation's class.
 #include "core/error.hpp"
 #include "formulation/cbm/cbm.hpp"
+#include "formulation/fem/fem.hpp"
+#include "formulation/nosb/nosb.hpp"
+#include "formulation/tlsph/tlsph.hpp"
 #include "model/formulation.hpp"
 
 namespace cleave {
 
 using cbm::ContinuumBondMethod;
+using fem::FiniteElements;
+using nosb::CorrespondencePeridynamics;
+using tlsph::TotalLagrangianSph;
 
 std::unique_ptr<Formulation> make_formulation(std::int32_t value) {
   std::string known;

@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "core/error.hpp"
+#include "material/j2.hpp"
 #include "material/svk.hpp"
 
 namespace cleave {

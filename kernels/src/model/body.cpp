@@ -107,6 +107,7 @@ void Body::make_fields() {
     }
   }
   work.resize(particles);
+  point_work.resize(points);
 }
 
 }  // namespace cleave

@@ -66,7 +66,8 @@ struct Body {
   std::vector<PrescribedDof> prescribed;
   std::vector<cleave_event> events;
   std::unique_ptr<Formulation> formulation;
-  BlockSums<3> work;  // per block: internal, viscous, external
+  BlockSums<3> work;        // per block of particles: internal, viscous, external
+  BlockSums<1> point_work;  // per block of points
 
   // Declares the fields, allocates those of particles and the body, copies positions.
   void make_fields();

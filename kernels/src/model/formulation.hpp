@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "cleave/cleave.h"
@@ -44,6 +45,9 @@ class Formulation {
   // The gradient operator of a formulation with a stress at points, else nullptr. Valid until bonds
   // break or the body is rebuilt.
   virtual const BodyOperator* gradient_operator() const { return nullptr; }
+
+  // What the static solver would miss, as a sentence; empty: nothing.
+  virtual std::string static_obstacle(const Body&) const { return {}; }
 
   // The parts of a step, in this order.
   virtual void break_bonds(Body& body, const Clock& clock, int threads) = 0;

@@ -75,13 +75,6 @@ void set_up(cleave_model& model) {
   model.phase = cleave_model::Phase::ready;
 }
 
-double stable_step(const cleave_model& model) {
-  double step = kUnbounded;
-  for (const auto& body : model.bodies)
-    step = std::min(step, body->formulation->stable_step(*body));
-  return step;
-}
-
 // Force that keeps prescribed motion: m a - (all other forces), in prescribed directions.
 void reaction(const Body& body, std::span<const std::int64_t> particles, double force[3]) {
   std::vector<char> mask(static_cast<std::size_t>(body.particles), 0);

@@ -35,7 +35,8 @@ void initialise(cleave_model& model, double time);
 void advance(cleave_model& model, double dt, double time_new);
 void update(cleave_model& model);
 void restore(cleave_model& model, std::int64_t step, double time);
-double stable_step(const cleave_model& model);
+// stable_step.cpp: for the present deformation
+double stable_step(cleave_model& model);
 
 // questions
 void reaction(const Body& body, std::span<const std::int64_t> particles, double force[3]);

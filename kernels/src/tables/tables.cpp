@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "formulation/cbm/parameters.hpp"
+#include "formulation/meshless/parameters.hpp"
 #include "material/material.hpp"
 
 namespace cleave {
@@ -47,9 +48,21 @@ constexpr std::array kCbmFields = {
 #define CLEAVE_FIELD CLEAVE_FIELD_SPEC
 #include "formulation/cbm/fields.def"
 };
+constexpr std::array kKernelMethodFields = {
+#define CLEAVE_FIELD CLEAVE_FIELD_SPEC
+#include "formulation/meshless/fields.def"
+};
+constexpr std::array kFemFields = {
+#define CLEAVE_FIELD CLEAVE_FIELD_SPEC
+#include "formulation/fem/fields.def"
+};
 
 std::vector<FieldOwner> make_field_owners() {
-  std::vector<FieldOwner> owners = {{"core", kCoreFields}, {"cbm", kCbmFields}};
+  std::vector<FieldOwner> owners = {{"core", kCoreFields},
+                                    {"cbm", kCbmFields},
+                                    {"tlsph", kKernelMethodFields},
+                                    {"nosb", kKernelMethodFields},
+                                    {"fem", kFemFields}};
   for (const auto& m : material_table()) owners.push_back({m.name, m.history});
   return owners;
 }

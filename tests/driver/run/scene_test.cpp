@@ -90,7 +90,7 @@ TEST_F(Refused, FieldsThatThereAreNot) {
           "'stress' is not a field of this run; fields that can be written: "));
   EXPECT_TRUE(has(
       message_of<DeckError>([&] { run("t_end=1", kPlate + "&output fields='bond_status' /\n"); }),
-      "is not a field of particles or simplices"));
+      "is not a field of particles, simplices"));
   EXPECT_TRUE(has(message_of<DeckError>([&] {
                     run("t_end=1", kPlate + "&probe name='p' field='damege' point=0,0 /\n");
                   }),

@@ -20,10 +20,11 @@ TEST_F(Step, DoesNotAllocate) {
                            "times=0,10 factors=0,1 /\n");
   Scene scene = Scene::from_deck(loaded, 1);
   const TimeStep step = choose_time_step(scene);
-  start_model(scene, step.clock.dt);
-  for (std::int64_t n = 0; n < 3; ++n) step_model(scene, step.clock, n);
+  const Stepping stepping(loaded);
+  stepping.start(scene, step.clock.dt);
+  for (std::int64_t n = 0; n < 3; ++n) stepping.step(scene, step.clock, n);
   const long before = cleave::test::allocations();
-  for (std::int64_t n = 3; n < 10; ++n) step_model(scene, step.clock, n);
+  for (std::int64_t n = 3; n < 10; ++n) stepping.step(scene, step.clock, n);
   EXPECT_EQ(cleave::test::allocations() - before, 0);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/gradient_operator.hpp"
+#include "formulation/unused_groups.hpp"
 
 namespace cleave::cbm {
 
@@ -50,6 +51,8 @@ double stiffness_length(const Network& network, std::int64_t particles) {
 }  // namespace
 
 void ContinuumBondMethod::setup(Body& body) {
+  refuse_group(body, "kernel", "it belongs to formulations tlsph and nosb");
+  refuse_group(body, "hourglass", "it belongs to tlsph and nosb; here it is group stabilisation");
   network_.build(body);
   const double density = with_law(body.material, [](const auto& law) { return law.density(); });
   for (std::int64_t i = 0; i < body.particles; ++i)
@@ -100,6 +103,12 @@ void ContinuumBondMethod::rebuild(Body& body, int threads) {
 double ContinuumBondMethod::stable_step(const Body& body) const {
   const double longer = std::fmax(1.0, bond_rate_.length / (kLongLength * shortest_));
   return kSafety * stable_length_ / wave_speed(body) / (1 + kViscousReduction * beta_ * longer);
+}
+
+std::string ContinuumBondMethod::static_obstacle(const Body& body) const {
+  if (stabilisation_.active()) return "it has no tangent of the stabilisation; leave it off";
+  if (fracture_.active()) return "bonds may not break in it; leave &fracture out";
+  return body.particles > 0 ? "" : "no particles";
 }
 
 void ContinuumBondMethod::break_bonds(Body& body, const Clock& clock, int threads) {

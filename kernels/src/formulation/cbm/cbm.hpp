@@ -19,6 +19,7 @@ class ContinuumBondMethod final : public Formulation {
   void rebuild(Body& body, int threads) override;
   double stable_step(const Body& body) const override;
   const BodyOperator* gradient_operator() const override { return &operator_; }
+  std::string static_obstacle(const Body& body) const override;
 
   void break_bonds(Body& body, const Clock& clock, int threads) override;
   void deform(Body& body, const Clock& clock, int threads) override;

@@ -15,6 +15,7 @@ namespace cleave::cbm {
 
 class Fracture {
  public:
+  bool active() const { return active_; }
   // Options and critical strains. Bonds with both ends exempt, or both prescribed in every
   // direction, never break.
   void setup(const Body& body, const Network& network);

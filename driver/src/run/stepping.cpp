@@ -1,0 +1,80 @@
+#include "run/stepping.hpp"
+
+#include "scene/format.hpp"
+
+namespace cleave::driver {
+
+Stepping::Stepping(const Deck& deck)
+    : static_(deck.one("run").text("mode") == "static"),
+      adapt_(deck.one("run").logical("adapt") && deck.one("run").real("time_step") == 0),
+      tolerance_(deck.one("static").real("tolerance")),
+      max_iterations_(deck.one("static").integer("max_iterations")),
+      cut_backs_(deck.one("static").integer("cut_backs")) {}
+
+void Stepping::start(Scene& scene, double dt) const {
+  scene.put_initial_velocities();
+  scene.motions().start(scene.model(), dt);
+  scene.forces().apply(scene.model(), 0.0);
+  check(cleave_model_initialise(scene.model().handle(), 0.0));
+}
+
+void Stepping::step(Scene& scene, const Clock& clock, std::int64_t step) const {
+  static_ ? load_increment(scene, clock.time(step), clock.time(step + 1))
+          : explicit_step(scene, clock, step);
+}
+
+// The parts are a power of two and follow from the state at the start of the step alone, so that a
+// restart divides as the uninterrupted run does.
+void Stepping::explicit_step(Scene& scene, const Clock& clock, std::int64_t step) const {
+  constexpr std::int64_t kMostParts = 1024;
+  Model& model = scene.model();
+  std::int64_t parts = 1;
+  if (adapt_) {
+    const double stable = model.stable_step();
+    while (parts < kMostParts && clock.dt / static_cast<double>(parts) > stable) parts *= 2;
+  }
+  const double dt = clock.dt / static_cast<double>(parts);
+  for (std::int64_t part = 1; part <= parts; ++part) {
+    const auto time = [&](std::int64_t k) {
+      return k == parts ? clock.time(step + 1) : clock.time(step) + static_cast<double>(k) * dt;
+    };
+    // After the last part the next step's size is not known yet; it is taken to be this one.
+    const double after = parts == 1 ? clock.time(step + 2) : time(part) + dt;
+    scene.motions().before_advance(model, time(part));
+    check(cleave_model_advance(model.handle(), dt, time(part)));
+    scene.forces().apply(model, time(part));
+    scene.motions().before_update(model, time(part - 1), time(part), after, dt);
+    check(cleave_model_update(model.handle()));
+  }
+}
+
+// Halves the part of the increment that is tried until it converges; doubles it again after two
+// that did.
+void Stepping::load_increment(Scene& scene, double from, double to) const {
+  Model& model = scene.model();
+  cleave_static_options options{};
+  check(cleave_static_options_init(&options));
+  options.tolerance = tolerance_;
+  options.max_iterations = static_cast<std::int32_t>(max_iterations_);
+  const double finest = 1.0 / static_cast<double>(std::int64_t{1} << cut_backs_);
+  double done = 0, size = 1;
+  int converged = 0;
+  while (done < 1) {
+    const double target = std::min(1.0, done + size);
+    const double time = target == 1.0 ? to : from + target * (to - from);
+    scene.motions().before_advance(model, time);
+    scene.forces().apply(model, time);
+    const std::int32_t status = cleave_model_solve_static(model.handle(), time, &options, nullptr);
+    if (status == CLEAVE_OK) {
+      done = target;
+      if (++converged >= 2) size = std::min(1.0, 2 * size);
+      continue;
+    }
+    const bool may_cut = status == CLEAVE_NO_CONVERGENCE || status == CLEAVE_BAD_JACOBIAN;
+    if (!may_cut || size / 2 < finest) check(status);
+    size /= 2;
+    converged = 0;
+  }
+}
+
+}  // namespace cleave::driver

@@ -1,0 +1,35 @@
+// Checks that several array calls share.
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+#include "abi/guard.hpp"
+
+namespace cleave::abi {
+
+inline void check_dimension(std::int32_t dimension) {
+  if (dimension != 2 && dimension != 3) {
+    throw Error(CLEAVE_BAD_ARGUMENT, text("dimension is ", dimension, "; allowed: 2, 3"));
+  }
+}
+
+inline void check_rows(std::int64_t first, std::int64_t last) {
+  if (first < 0 || last < first) {
+    throw Error(CLEAVE_BAD_RANGE,
+                text("range ", first, " <= i < ", last, " is not a range of particles"));
+  }
+}
+
+// F applied with D as a compile-time number.
+template <class F>
+void with_dimension(std::int32_t dimension, const F& f) {
+  check_dimension(dimension);
+  if (dimension == 2) {
+    f(std::integral_constant<int, 2>{});
+  } else {
+    f(std::integral_constant<int, 3>{});
+  }
+}
+
+}  // namespace cleave::abi

@@ -1,0 +1,148 @@
+#include "formulation/meshless/formulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "formulation/meshless/stable_step.hpp"
+#include "formulation/tlsph/kernel.hpp"
+#include "formulation/unused_groups.hpp"
+
+namespace cleave::meshless {
+
+using cbm::ViscosityForm;
+
+double KernelMethod::kernel_radius(const Body& body) {
+  const ParameterSet& options = body.group("kernel");
+  const double radius = options.real("radius");
+  if (!(radius > 0)) {
+    throw Error(CLEAVE_MISSING_PARAMETER,
+                text("group kernel of ", body.label(), " needs radius > 0 for formulation ",
+                     body.formulation->name(), ": usually 3 times the particle spacing"));
+  }
+  const bool kernel = options.choice("radius_meaning") == static_cast<int>(RadiusMeaning::kernel);
+  return kernel ? radius : radius / tlsph::CubicSpline::kSupport;
+}
+
+void KernelMethod::setup(Body& body) {
+  if (body.group("fracture").choice("criterion") != static_cast<int>(cbm::Criterion::none)) {
+    refuse_group(body, "fracture", "bonds break in formulation cbm only");
+  }
+  refuse_group(body, "stabilisation", "the penalty of this method is group hourglass");
+  const Kernel kernel = make_kernel(body);
+  gradient_.build(body, kernel);
+  operator_ = gradient_.gradient();
+  const double density = with_law(body.material, [](const auto& law) { return law.density(); });
+  for (std::int64_t i = 0; i < body.particles; ++i)
+    body.point.mass[i] = density * gradient_.volume[i];
+  hourglass_.setup(body, gradient_, kernel);
+  const std::vector<double> weight = setup_viscosity(body);
+  points_.setup(body);
+  power_.resize(body.particles);
+  stable_step_ = stable_step_of(largest_rates(body, operator_, hourglass_, bond_rate_, weight));
+  if (viscosity_ == ViscosityForm::frozen) bond_weight_ = weight;
+}
+
+// Returns the weights of the bonds, none without viscosity.
+std::vector<double> KernelMethod::setup_viscosity(const Body& body) {
+  const ParameterSet& options = body.group("viscosity");
+  const double beta = options.real("beta");
+  viscosity_ = options.any_given() && beta > 0 ? static_cast<ViscosityForm>(options.choice("form"))
+                                               : ViscosityForm::none;
+  bond_rate_ = {};
+  bond_weight_.clear();
+  if (viscosity_ == ViscosityForm::none) return {};
+  if (options.choice("length_mode") == static_cast<int>(cbm::LengthMode::local)) {
+    throw Error(CLEAVE_UNSUPPORTED,
+                text("group viscosity of ", body.label(),
+                     ": length_mode 'local' takes the length "
+                     "of each bond, which for formulation ",
+                     body.formulation->name(),
+                     " is that of the kernel; use 'constant' and the particle spacing as length"));
+  }
+  bond_rate_.length = options.real("length");
+  if (bond_rate_.length == 0) {
+    throw Error(CLEAVE_MISSING_PARAMETER, text("group viscosity of ", body.label(),
+                                               " needs length > 0: the particle spacing"));
+  }
+  const double density = with_law(body.material, [](const auto& law) { return law.density(); });
+  const double speed = with_law(body.material, [](const auto& law) { return law.wave_speed(); });
+  bond_rate_.beta_rho_c = beta * density * speed;
+  return gradient_.bond_weights();
+}
+
+void KernelMethod::rebuild(Body& body, int threads) {
+  gradient_.rebuild(body, threads);
+  points_.gradients(body, operator_, threads);
+}
+
+void KernelMethod::deform(Body& body, const Clock& clock, int threads) {
+  dt_ = clock.dt;
+  points_.deform(body, operator_, clock, threads);
+}
+
+template <int D>
+void KernelMethod::viscous_force(Body& body, std::int64_t first, std::int64_t last) const {
+  const PointArrays& pt = body.point;
+  switch (viscosity_) {
+    case ViscosityForm::none:
+      break;
+    case ViscosityForm::frozen:
+      cbm::viscous_force_frozen<D>(operator_, bond_rate_, bond_weight_.data(), pt.x, pt.v, pt.ratio,
+                                   first, last, pt.viscous);
+      break;
+    case ViscosityForm::central:
+      cbm::viscous_force_deformed<D, true>(operator_, bond_rate_, pt.x, pt.v, pt.h, pt.ratio, first,
+                                           last, pt.viscous);
+      break;
+    case ViscosityForm::paper:
+      cbm::viscous_force_deformed<D, false>(operator_, bond_rate_, pt.x, pt.v, pt.h, pt.ratio,
+                                            first, last, pt.viscous);
+      break;
+  }
+}
+
+template <int D>
+void KernelMethod::forces_in(Body& body, int threads) {
+  for_blocks(
+      threads, body.particles, [&](std::int64_t block, std::int64_t first, std::int64_t last) {
+        double* internal = body.point.internal;
+        std::fill(internal + kVector * first, internal + kVector * last, 0.0);
+        std::fill(body.point.viscous + kVector * first, body.point.viscous + kVector * last, 0.0);
+        internal_force<D>(operator_, body.point.p, first, last, internal);
+        power_[block] = {hourglass_.active() ? hourglass_.add_force<D>(body, operator_, first, last)
+                                             : 0.0};
+        viscous_force<D>(body, first, last);
+      });
+  hourglass_.book(power_.total()[0], dt_);
+}
+
+void KernelMethod::forces(Body& body, int threads) {
+  body.dimension() == 2 ? forces_in<2>(body, threads) : forces_in<3>(body, threads);
+}
+
+void KernelMethod::precrack(Body& body, std::span<const std::int64_t>) {
+  throw Error(CLEAVE_UNSUPPORTED,
+              text(body.label(), ": formulation ", name(),
+                   " has no bonds that can be cut; use cbm, or leave the crack out of the mesh"));
+}
+
+StoredEnergy KernelMethod::stored_energy(const Body& body) const {
+  return {points_.stored_energy(body), hourglass_.energy(body, operator_)};
+}
+
+double KernelMethod::hourglass_energy(const Body& body) const {
+  return hourglass_.diagnostic(body, operator_);
+}
+
+void KernelMethod::count(const Body& body, cleave_counts& counts) const {
+  counts.bonds += gradient_.half_bonds() / 2;
+  counts.simplices += gradient_.simplices;
+  counts.inverted += points_.inverted(body);
+}
+
+std::int64_t KernelMethod::bytes() const {
+  return gradient_.bytes() + hourglass_.bytes() +
+         static_cast<std::int64_t>(bond_weight_.capacity() * sizeof(double));
+}
+
+}  // namespace cleave::meshless

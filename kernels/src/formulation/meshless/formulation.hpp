@@ -1,0 +1,62 @@
+// What total-Lagrangian SPH and correspondence peridynamics have in common: everything but the
+// weight of a pair. Gradients, stresses and forces go through the one gradient operator; added to
+// them are the hourglass penalty and the artificial viscosity of bonds. No fracture.
+#pragma once
+
+#include <vector>
+
+#include "core/blocks.hpp"
+#include "formulation/cbm/parameters.hpp"
+#include "formulation/cbm/viscosity.hpp"
+#include "formulation/meshless/hourglass.hpp"
+#include "formulation/meshless/kernel_gradient.hpp"
+#include "formulation/stress_points.hpp"
+
+namespace cleave::meshless {
+
+class KernelMethod : public Formulation {
+ public:
+  void setup(Body& body) override;
+  void rebuild(Body& body, int threads) override;
+  double stable_step(const Body&) const override { return stable_step_; }
+  const BodyOperator* gradient_operator() const override { return &operator_; }
+
+  void break_bonds(Body&, const Clock&, int) override {}
+  void deform(Body& body, const Clock& clock, int threads) override;
+  void forces(Body& body, int threads) override;
+  void precrack(Body& body, std::span<const std::int64_t> pairs) override;
+
+  StoredEnergy stored_energy(const Body& body) const override;
+  double hourglass_energy(const Body& body) const override;
+  void count(const Body& body, cleave_counts& counts) const override;
+  bool derive(const Body&, std::string_view, std::int64_t, std::int64_t, double*) const override {
+    return false;
+  }
+  std::int64_t bytes() const override;
+
+ protected:
+  // The kernel radius r [m] of group kernel, whatever its meaning. Throws if it is missing.
+  static double kernel_radius(const Body& body);
+  // Options of the method, and its weight of a pair.
+  virtual Kernel make_kernel(const Body& body) const = 0;
+
+ private:
+  std::vector<double> setup_viscosity(const Body& body);
+  template <int D>
+  void forces_in(Body& body, int threads);
+  template <int D>
+  void viscous_force(Body& body, std::int64_t first, std::int64_t last) const;
+
+  KernelGradient gradient_;
+  BodyOperator operator_;
+  StressPoints points_;
+  Hourglass hourglass_;
+  cbm::ViscosityForm viscosity_ = cbm::ViscosityForm::none;
+  cbm::BondRate<std::int32_t> bond_rate_;
+  std::vector<double> bond_weight_;  // (h) of the frozen viscosity [m3]
+  double stable_step_ = 0;           // [s] of the undeformed body
+  double dt_ = 0;                    // of the step being done
+  BlockSums<1> power_;
+};
+
+}  // namespace cleave::meshless

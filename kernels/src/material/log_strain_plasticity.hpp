@@ -1,0 +1,272 @@
+// Finite-strain plasticity of metals in logarithmic strain and Kirchhoff stress, with a hardening and
+// a volumetric law as parts: multiplicative split F = Fe Fp, Hencky elasticity of Be = Fe Fe^T, von
+// Mises yield, radial return exact for any size of step. Batched without eigenvectors.
+//
+// History: Z = Cp^-1 - I and the equivalent plastic strain. With H = F - I and Z instead of F and
+// Cp^-1 a strain of 1e-12 keeps its digits. Rigid rotation between steps costs no accuracy.
+//
+//   Be* - I = Y = F (I+Z) F^T - I ,  d = dev ln(I+Y) = 2 dev eps* ,  t = tr ln(I+Y) / 2
+//   teq* = G sqrt(3/2 d:d) ,  phi* = teq* - tau_y(eps_p)
+//   phi* <= 0: theta = 1; else 3 G dg + h(eps_p + dg) - h(eps_p) = phi* and theta = tau_y / teq*
+//   tau = tau_m I + theta G d ,  P = tau F^-T
+//   Z += F^-1 Be* (exp(-(1-theta) d) - I) F^-T ,  eps_p += dg
+#pragma once
+
+#include <cmath>
+#include <span>
+
+#include "core/tensor_functions.hpp"
+#include "material/hardening.hpp"
+#include "material/lane_point.hpp"
+
+namespace cleave {
+
+// Outside these a point is refused. Everything is dimensionless.
+inline constexpr double kLargestLogStretch = 20;  // of ln b_a, an eigenvalue of Be*
+inline constexpr double kLargestInput = 1e30;  // of |H| + |Z| + eps_p: products stay representable
+inline constexpr int kReturnIterations = 50;
+// Relative to phi* and to the increment: a few units of the last place.
+inline constexpr double kReturnResidual = 4e-15, kReturnBracket = 4e-16, kStepResidual = 4e-16;
+
+// What a volumetric law sees.
+template <class R>
+struct Volume {
+  R log_ratio;     // t = ln J (+ 1/2 ln det Cp^-1, which is round-off)
+  R change;        // J - 1
+  R ratio;         // J
+  R shear_energy;  // stored in the deviator at the end of the step [J m-3]
+  R plastic;       // work of the plastic flow in the step [J m-3]
+};
+template <class R>
+struct Spherical {
+  R stress;        // tau_m = tr(tau)/3 [Pa]
+  R energy;        // stored in the volume [J m-3]
+  R viscous{0.0};  // dissipated in the step [J m-3]
+};
+
+// tau_m = kappa t.
+class LogarithmicBulk {
+ public:
+  static constexpr std::array<FieldSpec, 0> kMemory{};
+  explicit LogarithmicBulk(double kappa) : kappa_(kappa) {}
+  template <class R, class M>
+  Spherical<R> respond(const Volume<R>& v, M&, const Setting<R>&) const {
+    const R stress = kappa_ * v.log_ratio;
+    return {stress, 0.5 * (stress * v.log_ratio)};
+  }
+  // d tau_m / d ln J
+  double modulus(const Volume<double>&) const { return kappa_; }
+
+ private:
+  double kappa_;
+};
+
+// The kernel of the law, in three dimensions.
+template <class Hardening, class Bulk>
+class ReturnMapping {
+ public:
+  static constexpr int kHardeningMemory = static_cast<int>(Hardening::kMemory.size());
+  static constexpr int kBulkMemory = static_cast<int>(Bulk::kMemory.size());
+  // Z (11 22 33 12 23 31), eps_p, memory of the hardening, memory of the bulk.
+  static constexpr int kHistory = 7 + kHardeningMemory + kBulkMemory;
+
+  ReturnMapping(double shear_modulus, const Hardening& hardening, const Bulk& bulk)
+      : shear_(shear_modulus),
+        bracket_((1 + 1e-15) / (3 * shear_ + std::min(0.0, hardening.least_slope()))),
+        hardening_(hardening),
+        bulk_(bulk) {
+    if (!(hardening.least_slope() > -3 * shear_)) {
+      throw Error(
+          CLEAVE_BAD_ARGUMENT,
+          text("the yield stress falls by ", -hardening.least_slope(),
+               " per plastic strain, which no return mapping can follow; allowed: less than "
+               "3 G = ",
+               3 * shear_, "; soften more slowly"));
+    }
+  }
+
+  // The history array may be longer than kHistory; what follows is left alone.
+  template <class R, int kComponents>
+  CLEAVE_INLINE void update(LanePoint<R, kComponents>& point, const Setting<R>& setting) const {
+    point.valid = admissible(point);
+    auto& history = point.history;
+    const Symmetric<R> z = metric(history);
+    const Cofactor<R> c = cofactor_of(point.h);
+    const R ratio = 1.0 + c.volume_change, inverse = 1.0 / ratio;
+    const Symmetric<R> y = push_forward_minus_identity(point.h, z);
+    Symmetric<R> d = log_of(y, c.volume_change, kLargestLogStretch, point.valid);
+    const R twice_t = trace(d);
+    d = plus_spherical(d, twice_t * (-1.0 / 3));
+    const R dd = squared_norm(d), equivalent = shear_ * square_root(1.5 * dd);
+
+    R theta(1.0);
+    point.plastic = R(0.0);
+    std::array<R, kHardeningMemory> memory = part<0>(history);
+    const R strain = history[6];
+    if (any(equivalent > hardening_.lower_bound(strain, memory))) {
+      Flowing<R> flow = flow_of(strain, memory, setting, equivalent);
+      if (any(flow.active)) {
+        point.valid = point.valid & flow.converged;
+        theta = flow.theta;
+        point.plastic = flow.work;
+        history[6] = select(flow.active, strain + flow.increment, strain);
+        const Symmetric<R> e = expm1_of(scaled(-flow.removed, d));
+        const Symmetric<R> change = pull_back(c.cofactor, e + commuting_product(y, e));
+        set_metric(history, select(flow.active, z + scaled(inverse * inverse, change), z));
+        finish(flow, ratio, memory);
+      }
+    }
+    const R shear_energy = (0.25 * shear_) * (theta * theta * dd);
+    std::array<R, kBulkMemory> bulk_memory = part<1>(history);
+    const Volume<R> volume{0.5 * twice_t, c.volume_change, ratio, shear_energy, point.plastic};
+    const Spherical<R> spherical = bulk_.respond(volume, bulk_memory, setting);
+    const Symmetric<R> tau = plus_spherical(scaled(theta * shear_, d), spherical.stress);
+    point.p = multiply(scaled(inverse, tau), c.cofactor);
+    point.energy = spherical.energy + shear_energy;
+    point.viscous = spherical.viscous;
+    set_part<0>(history, memory);
+    set_part<1>(history, bulk_memory);
+  }
+
+  double shear_modulus() const { return shear_; }
+  const Hardening& hardening() const { return hardening_; }
+  const Bulk& bulk() const { return bulk_; }
+
+  // Radial return of a trial equivalent stress; lanes that do not yield have theta = 1.
+  template <class R>
+  struct Flowing {
+    MaskOf<R> active, converged;
+    R increment{0.0};            // dg
+    R theta{1.0}, removed{0.0};  // removed = 1 - theta, without its cancellation
+    R work{0.0}, yield{0.0}, slope{0.0};
+    typename Hardening::template Start<R> start;
+  };
+  template <class R, class M>
+  CLEAVE_INLINE Flowing<R> flow_of(const R& strain, const M& memory, const Setting<R>& setting,
+                                   const R& equivalent) const {
+    Flowing<R> f;
+    f.start = hardening_.start(strain, memory, setting);
+    const R excess = equivalent - f.start.yield;
+    f.active = excess > 0.0;
+    f.converged = !f.active;
+    if (!any(f.active)) return f;
+    const R phi = select(f.active, excess, R(0.0)), safe = select(f.active, equivalent, R(1.0));
+    R rise;
+    solve(phi, f, rise);
+    f.yield = f.start.yield + rise;
+    const R inverse = 1.0 / safe;
+    f.theta = select(f.active, f.yield * inverse, R(1.0));
+    f.removed = select(f.active, (3 * shear_) * f.increment * inverse, R(0.0));
+    f.work = select(f.active, hardening_.work(f.start, f.increment), R(0.0));
+    return f;
+  }
+
+ private:
+  // Clears lanes that nothing may be computed with, so that no operation traps.
+  template <class R, int kComponents>
+  CLEAVE_INLINE static MaskOf<R> admissible(LanePoint<R, kComponents>& point) {
+    const Full<R>& h = point.h;
+    R size = ((absolute(h.xx) + absolute(h.xy)) + (absolute(h.xz) + absolute(h.yx))) +
+             ((absolute(h.yy) + absolute(h.yz)) + (absolute(h.zx) + absolute(h.zy))) +
+             absolute(h.zz);
+    for (std::size_t k = 0; k < kHistory; ++k) size = size + absolute(point.history[k]);
+    MaskOf<R> valid = is_finite(size);
+    if (!all(valid)) clear(point, valid), size = select(valid, size, R(0.0));
+    valid = valid & (point.history[6] >= 0.0) & (size < kLargestInput);
+    if (!all(valid)) clear(point, valid);
+    const MaskOf<R> upright = cofactor_of(point.h).volume_change > -1.0;
+    if (!all(upright)) clear(point, upright);
+    return valid & upright;
+  }
+  template <class R, int kComponents>
+  [[gnu::noinline, gnu::cold]] static void clear(LanePoint<R, kComponents>& point,
+                                                 const MaskOf<R>& keep) {
+    point.h = select(keep, point.h, Full<R>{});
+    for (std::size_t k = 0; k < kHistory; ++k)
+      point.history[k] = select(keep, point.history[k], R(0.0));
+  }
+
+  // r(x) = phi* - 3 G x - (h(e+x) - h(e)) = 0 by Newton inside a bracket. A lane stops for itself: at
+  // a residual or step of the size of round-off, or (smooth h) when the step now taken leaves a
+  // residual h'' step^2 / 2 of that size, which needs no other evaluation.
+  template <class R>
+  CLEAVE_INLINE void solve(const R& phi, Flowing<R>& f, R& rise) const {
+    const double three_g = 3 * shear_;
+    R low(0.0), high = phi * bracket_;
+    R x = smaller(hardening_.first_guess(f.start, phi, three_g), high);
+    rise = R(0.0);
+    for (int n = 0;; ++n) {
+      R rise_here, slope_here;
+      hardening_.advance(f.start, x, rise_here, slope_here);
+      rise = select(f.converged, rise, rise_here);
+      f.slope = select(f.converged, f.slope, slope_here);
+      const R r = (phi - three_g * x) - rise;
+      const MaskOf<R> too_small = r > 0.0;
+      low = select(too_small, x, low);
+      high = select(too_small, high, x);
+      const R step = r / (three_g + f.slope);
+      R next = x + step;
+      if constexpr (Hardening::kSmooth) {
+        const R left = hardening_.curvature(f.start) * (step * step);
+        const MaskOf<R> last = (left <= kStepResidual * phi) & !f.converged;
+        x = select(last, next, x);
+        rise = select(last, rise + f.slope * step, rise);
+        f.converged = f.converged | last;
+      }
+      f.converged = f.converged | (absolute(r) <= kReturnResidual * phi) |
+                    (absolute(step) <= kReturnBracket * x) | (high - low <= kReturnBracket * x);
+      if (all(f.converged) || n == kReturnIterations) break;
+      next = select((next > low) & (next < high), next, 0.5 * (low + high));
+      x = select(f.converged, x, next);
+    }
+    f.increment = x;
+  }
+
+  template <class R>
+  void finish(const Flowing<R>& f, const R& ratio, std::array<R, kHardeningMemory>& memory) const {
+    if constexpr (kHardeningMemory > 0) {
+      const auto before = memory;
+      hardening_.finish(f.start, f.increment, Flow<R>{f.work, R(0.0), f.yield, ratio}, memory);
+      for (std::size_t k = 0; k < memory.size(); ++k)
+        memory[k] = select(f.active, memory[k], before[k]);
+    }
+  }
+
+  template <int kPart, class A>
+  static auto part(const A& history) {
+    using R = typename A::value_type;
+    constexpr std::size_t begin = kPart == 0 ? 7 : 7 + kHardeningMemory;
+    std::array<R, kPart == 0 ? kHardeningMemory : kBulkMemory> memory{};
+    for (std::size_t k = 0; k < memory.size(); ++k) memory[k] = history[begin + k];
+    return memory;
+  }
+  template <int kPart, class A, class M>
+  static void set_part(A& history, const M& memory) {
+    constexpr std::size_t begin = kPart == 0 ? 7 : 7 + kHardeningMemory;
+    for (std::size_t k = 0; k < memory.size(); ++k) history[begin + k] = memory[k];
+  }
+
+ public:
+  template <class A>
+  static Symmetric<typename A::value_type> metric(const A& v) {
+    return {v[0], v[1], v[2], v[3], v[4], v[5]};
+  }
+
+ private:
+  template <class A, class R>
+  static void set_metric(A& v, const Symmetric<R>& z) {
+    v[0] = z.xx;
+    v[1] = z.yy;
+    v[2] = z.zz;
+    v[3] = z.xy;
+    v[4] = z.yz;
+    v[5] = z.zx;
+  }
+
+  double shear_;
+  double bracket_;  // the root is below this times phi*
+  Hardening hardening_;
+  Bulk bulk_;
+};
+
+}  // namespace cleave

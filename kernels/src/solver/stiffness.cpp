@@ -1,0 +1,118 @@
+#include "solver/stiffness.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "material/tangent.hpp"
+
+namespace cleave {
+
+namespace {
+
+// The particles of a row with all weights, the point's own included.
+template <int D>
+struct Row {
+  std::vector<std::int32_t> particle;
+  std::vector<Vec<D>> zeta;
+
+  void take(const BodyOperator& g, std::int64_t q) {
+    particle.clear();
+    zeta.clear();
+    Vec<D> own;
+    for (std::int32_t b = g.row_begin[q]; b < g.row_begin[q + 1]; ++b) {
+      particle.push_back(g.neighbour[b]);
+      zeta.push_back(load_vector<D>(g.zeta, b));
+      for (int k = 0; k < D; ++k) own[k] -= zeta.back()[k];
+    }
+    if (!g.of_particles()) return;
+    particle.push_back(static_cast<std::int32_t>(q));
+    zeta.push_back(own);
+  }
+};
+
+template <int D>
+void add_row(const Row<D>& row, const Tangent<D>& tangent, double volume,
+             const Equations& equations, std::vector<Eigen::Triplet<double>>& entries,
+             std::vector<Eigen::Triplet<double>>& fixed) {
+  const std::size_t count = row.particle.size();
+  for (std::size_t b = 0; b < count; ++b) {
+    double column[D][D][D];  // sum_l A_jkml zeta_b,l / Omega
+    for (int j = 0; j < D; ++j)
+      for (int k = 0; k < D; ++k)
+        for (int m = 0; m < D; ++m) {
+          double sum = 0;
+          for (int l = 0; l < D; ++l) sum += tangent(j, k, m, l) * row.zeta[b][l];
+          column[j][k][m] = sum / volume;
+        }
+    for (std::size_t a = 0; a < count; ++a) {
+      for (int j = 0; j < D; ++j) {
+        const std::int32_t equation =
+            equations.of[static_cast<std::size_t>(kVector * row.particle[a] + j)];
+        if (equation < 0) continue;
+        for (int m = 0; m < D; ++m) {
+          double value = 0;
+          for (int k = 0; k < D; ++k) value += row.zeta[a][k] * column[j][k][m];
+          const auto dof = static_cast<std::int32_t>(kVector * row.particle[b] + m);
+          const std::int32_t other = equations.of[static_cast<std::size_t>(dof)];
+          if (other >= 0) {
+            entries.emplace_back(equation, other, value);
+          } else {
+            fixed.emplace_back(equation, dof, value);
+          }
+        }
+      }
+    }
+  }
+}
+
+template <int D>
+bool assemble_in(const Body& body, const BodyOperator& g, const HistoryArrays& committed,
+                 const Equations& equations, Stiffness& k) {
+  std::vector<Eigen::Triplet<double>> entries;
+  k.fix.clear();
+  Row<D> row;
+  double largest = 0, asymmetry = 0;
+  for (std::int64_t q = 0; q < body.points; ++q) {
+    if (!(g.volume[q] > 0)) continue;
+    Tangent<D> a;
+    const Increment increment{0, D == 2 ? std::sqrt(g.volume[q]) : std::cbrt(g.volume[q])};
+    if (!tangent_at<D>(body.material, committed, load_tensor<D>(body.point.h, q), increment, q, a))
+      return false;
+    for (int c = 0; c < D * D * D * D; ++c) {
+      const int i = c / (D * D * D), j = c / (D * D) % D, l = c / D % D, m = c % D;
+      largest = std::fmax(largest, std::fabs(a(i, j, l, m)));
+      asymmetry = std::fmax(asymmetry, std::fabs(a(i, j, l, m) - a(l, m, i, j)));
+    }
+    row.take(g, q);
+    add_row<D>(row, a, g.volume[q], equations, entries, k.fix);
+  }
+  k.asymmetry = largest > 0 ? asymmetry / largest : 0.0;
+  k.free.resize(equations.count, equations.count);
+  k.free.setFromTriplets(entries.begin(), entries.end());
+  return true;
+}
+
+}  // namespace
+
+Equations::Equations(const Body& body, const BodyOperator& g)
+    : of(static_cast<std::size_t>(kVector * body.particles), -1) {
+  constexpr std::int32_t kFree = 0;
+  const int d = body.dimension();
+  for (std::int64_t i = 0; i < body.particles; ++i) {
+    const bool carried = !g.of_particles() || g.volume[i] > 0;
+    for (int k = 0; k < d && carried; ++k) of[static_cast<std::size_t>(kVector * i + k)] = kFree;
+  }
+  for (const auto& dof : body.prescribed)
+    of[static_cast<std::size_t>(kVector * dof.particle + dof.direction)] = -1;
+  for (auto& equation : of) {
+    if (equation == kFree) equation = static_cast<std::int32_t>(count++);
+  }
+}
+
+bool assemble(const Body& body, const BodyOperator& g, const HistoryArrays& committed,
+              const Equations& equations, Stiffness& k) {
+  return body.dimension() == 2 ? assemble_in<2>(body, g, committed, equations, k)
+                               : assemble_in<3>(body, g, committed, equations, k);
+}
+
+}  // namespace cleave

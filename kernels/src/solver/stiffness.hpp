@@ -1,0 +1,34 @@
+// The tangent stiffness of a body through its gradient operator, for degrees of freedom that are free
+// to move:  K_(a,j)(b,m) = sum_q (1/Omega_q) A^q_jkml zeta_qa,k zeta_qb,l  over all particles a, b of
+// row q, the point's own particle with - sum_p zeta_qp among them.
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <cstdint>
+#include <vector>
+
+#include "model/body.hpp"
+
+namespace cleave {
+
+// Numbers of the equations: -1 for a degree of freedom that is prescribed, has no stiffness, or lies
+// out of the plane.
+struct Equations {
+  explicit Equations(const Body& body, const BodyOperator& g);
+  std::vector<std::int32_t> of;  // (3,n)
+  std::int64_t count = 0;
+};
+
+using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, std::int32_t>;
+
+struct Stiffness {
+  SparseMatrix free;                        // (count, count), both triangles
+  std::vector<Eigen::Triplet<double>> fix;  // row: equation; column: 3 i + direction, prescribed
+  double asymmetry = 0;                     // largest |A_ijkl - A_klij| over the largest |A_ijkl|
+};
+
+// From the present H and the committed history. False if a law has no tangent there.
+bool assemble(const Body& body, const BodyOperator& g, const HistoryArrays& committed,
+              const Equations& equations, Stiffness& k);
+
+}  // namespace cleave
