@@ -14,7 +14,7 @@ import c_interface
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 HEADER = ROOT / "kernels/include/cleave/cleave.h"
 TABLES = ("fields", "materials", "formulations", "groups", "status", "units")
-COMMANDS = ("check", "restart", "keys", "tables", "info", "parse")
+COMMANDS = ("check", "restart", "keys", "tables", "info", "export", "parse")
 
 
 def generate(program, folder):

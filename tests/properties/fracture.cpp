@@ -66,9 +66,11 @@ TEST_P(Fracture, IsIrreversibleAndEventsTellTheSameStory) {
   EXPECT_GT(energies.fracture, 0);
 }
 
-// The closure error of a run with deletions falls with the square of the step.
+// The closure error of a run with deletions falls with the square of the step; with the step where the
+// law flows plastically, because the return mapping is a backward Euler step.
 TEST_P(Fracture, LedgerClosesWithDeletionsViscosityAndStabilisation) {
-  for (const char* form : {"none", "deviation", "blend"}) {
+  for (const std::string form : {"none", "deviation", "blend"}) {
+    if (form == "blend" && remembers(GetParam())) continue;  // refused
     const auto closure = [&](double fraction) {
       Model model;
       model.add(GetParam(), mesh(),
@@ -86,6 +88,11 @@ TEST_P(Fracture, LedgerClosesWithDeletionsViscosityAndStabilisation) {
       return std::fabs(e.balance) / (e.kinetic + e.fracture + e.viscous);
     };
     const double coarse = closure(0.2), fine = closure(0.1);
+    if (remembers(GetParam())) {
+      EXPECT_LT(fine, 2e-3) << form;
+      EXPECT_GT(coarse / fine, 1.5) << form;
+      continue;
+    }
     EXPECT_LT(fine, 2e-6) << form;          // measured 3e-7 to 5e-7
     EXPECT_GT(coarse / fine, 2.5) << form;  // second order: measured 2.9 to 4.0
   }

@@ -18,11 +18,7 @@ class Free {
     mesh = patch(d, d == 2 ? 10 : 7, kSpacing * scale_length, 0.15, 11);
     model.add(c, mesh, settings);
     if (scale_mass != 1 || scale_length != 1 || scale_time != 1) {
-      // Density and modulus of the test material in the other set of units.
-      const double rho = 1190 * scale_mass / std::pow(scale_length, 3);
-      const double youngs = 3.24e9 * scale_mass / (scale_length * scale_time * scale_time);
-      ok(cleave_body_set_real(model, 0, "material", "rho", rho));
-      ok(cleave_body_set_real(model, 0, "material", "E", youngs));
+      model.rescale_material(law_name(c.material).c_str(), scale_length, scale_time, scale_mass);
     }
     ok(cleave_model_set_threads(model, threads));
     model.setup();

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -71,6 +72,26 @@ inline std::vector<Setting> needed_settings(int32_t formulation, const SimplexMe
   return {{"kernel", "radius", 1.75 * spacing}};
 }
 
+// Factor on a number with these units ("kg m-3") in a set whose units of length, time and mass are
+// 1/length m, 1/time s, 1/mass kg.
+inline double unit_factor(const std::string& units, double length, double time, double mass) {
+  double factor = 1;
+  std::istringstream words(units);
+  for (std::string word; words >> word;) {
+    const std::size_t end = word.find_first_of("-0123456789");
+    const std::string symbol = word.substr(0, end);
+    const int power = end == std::string::npos ? 1 : std::stoi(word.substr(end));
+    double unit = 1;
+    if (symbol == "m") unit = length;
+    if (symbol == "s") unit = time;
+    if (symbol == "kg") unit = mass;
+    if (symbol == "Pa") unit = mass / (length * time * time);
+    if (symbol == "J") unit = mass * length * length / (time * time);
+    factor *= std::pow(unit, power);
+  }
+  return factor;
+}
+
 class Model {
  public:
   Model() { ok(cleave_model_create(CLEAVE_ABI_VERSION, &handle_)); }
@@ -102,6 +123,22 @@ class Model {
              ? cleave_body_set_real(handle_, body, s.group.c_str(), s.name.c_str(), s.value)
              : cleave_body_set_choice(handle_, body, s.group.c_str(), s.name.c_str(),
                                       s.choice.c_str()));
+    }
+  }
+
+  // Gives the properties of the law in another set of units.
+  void rescale_material(const char* law, double length, double time, double mass) {
+    int64_t count = 0;
+    ok(cleave_parameter_count(law, &count));
+    for (int64_t k = 0; k < count; ++k) {
+      cleave_parameter q{};
+      q.size = sizeof q;
+      ok(cleave_parameter_get(law, k, &q));
+      if (q.type != CLEAVE_REAL) continue;
+      double value = 0;
+      ok(cleave_body_get_real(handle_, 0, "material", q.name, &value));
+      value *= unit_factor(q.units, length, time, mass);
+      ok(cleave_body_set_real(handle_, 0, "material", q.name, value));
     }
   }
 
@@ -176,6 +213,21 @@ class Model {
   }
   cleave_model* handle_ = nullptr;
 };
+
+inline std::string law_name(int32_t material) {
+  cleave_table_entry e{};
+  e.size = sizeof e;
+  for (int64_t k = 0; cleave_table_get(CLEAVE_TABLE_MATERIAL, k, &e) == CLEAVE_OK; ++k) {
+    if (e.value == material) return e.name;
+  }
+  return "";
+}
+// Laws that remember: their response depends on the path.
+inline bool remembers(const Case& c) {
+  int64_t count = 0;
+  ok(cleave_material_history_count(c.material, &count));
+  return count > 0;
+}
 
 // Every formulation x material x plane condition of the tables.
 inline std::vector<Case> all_cases() {

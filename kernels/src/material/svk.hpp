@@ -9,6 +9,7 @@
 
 #include "core/field.hpp"
 #include "core/parameter.hpp"
+#include "core/tangent.hpp"
 #include "core/tensor.hpp"
 #include "material/kinematics.hpp"
 
@@ -52,6 +53,26 @@ class StVenantKirchhoff {
     r.energy = 0.5 * lambda_ * trace * trace + mu_ * contract(e, e);
     r.valid = kinematics_ != CLEAVE_PLANE_STRESS || 1 + 2 * strain_33(trace) > 0;
     return r;
+  }
+
+  // A_ijkl = dP_ij/dF_kl = delta_ik S_jl + lambda F_ij F_kl + mu (F_il F_kj + delta_jl (F F^T)_ik)
+  template <int D>
+  bool tangent(const Mat<D>& h, const History&, const Increment&, Tangent<D>& a) const {
+    const Mat<D> e = green_lagrange(h), f = plus_identity(h);
+    double trace = 0;
+    for (int i = 0; i < D; ++i) trace += e(i, i);
+    for (int i = 0; i < D; ++i)
+      for (int k = 0; k < D; ++k) {
+        double ff = 0;
+        for (int m = 0; m < D; ++m) ff += f(i, m) * f(k, m);
+        for (int j = 0; j < D; ++j)
+          for (int l = 0; l < D; ++l) {
+            const double s = 2 * mu_ * e(j, l) + (j == l ? lambda_ * trace : 0.0);
+            a(i, j, k, l) = lambda_ * f(i, j) * f(k, l) +
+                            mu_ * (f(i, l) * f(k, j) + (j == l ? ff : 0.0)) + (i == k ? s : 0.0);
+          }
+      }
+    return kinematics_ != CLEAVE_PLANE_STRESS || 1 + 2 * strain_33(trace) > 0;
   }
 
   // F_33 in two dimensions.
