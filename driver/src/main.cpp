@@ -10,6 +10,7 @@
 #include "command/export.hpp"
 #include "command/info.hpp"
 #include "command/keys.hpp"
+#include "command/point.hpp"
 #include "command/tables.hpp"
 #include "command/waiting_threads.hpp"
 #include "deck/nearest_name.hpp"
@@ -28,6 +29,7 @@ struct Words {
   std::string deck_to_run, deck, checkpoint, topic, table, file, format = "text";
   RunOptions run;
   ExportRequest to_export;
+  PointRequest point;
 };
 
 int print(const std::string& text) {
@@ -152,6 +154,32 @@ void add_export_command(CLI::App& app, Words& words, Action& chosen) {
       ->type_name("FILE");
 }
 
+void add_point_command(CLI::App& app, Words& words, Action& chosen) {
+  PointRequest& request = words.point;
+  CLI::App& command = add_command(
+      app, chosen, "point", "follow a deformation with one material point, as CSV", [&request] {
+        follow_path(request, [](std::string_view text) { std::cout << text; });
+        return int{kDone};
+      });
+  command.add_option("LAW", request.law, "law, as in `cleave tables materials`")->required();
+  command.add_option("PROPERTIES", request.properties, "NAME=VALUE of every property");
+  command
+      .add_option("--path", request.path,
+                  "CSV with columns time and F_xx, F_xy, ... (or H_xx, ...: F - I, for small "
+                  "strains); what is missing is that of no deformation")
+      ->required()
+      ->type_name("FILE");
+  command
+      .add_option("--kinematics", request.kinematics, "3d (default), plane_strain, plane_stress")
+      ->check(CLI::IsMember({"3d", "plane_strain", "plane_stress"}))
+      ->type_name("WHICH");
+  command.add_option("--steps", request.steps, "equal steps between two rows of the path")
+      ->check(CLI::Range(1, 1000000000))
+      ->type_name("N");
+  command.add_option("--length", request.length, "size of the particle, for shock viscosity")
+      ->type_name("LENGTH");
+}
+
 std::vector<std::string> command_names(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
@@ -203,6 +231,7 @@ int run_command_line(int argc, char** argv) {
   add_listing_commands(app, words, chosen);
   add_file_commands(app, words, chosen);
   add_export_command(app, words, chosen);
+  add_point_command(app, words, chosen);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -82,7 +82,7 @@ TEST(J2, FollowsPlaneStrainTensionOfTheTheoryPage) {
 // Three steps from the virgin state, elastic and plastic, and every size up to stretch 3.
 TEST(J2, AgreesWithTheTextbookAlgorithmInExtendedPrecision) {
   Random random(11);
-  double worst = 0, worst_metric = 0;
+  double worst = 0, worst_metric = 0, worst_strain = 0;
   for (int trial = 0; trial < 400; ++trial) {
     const double size = std::pow(10.0, -3 + 3.3 * std::fabs(random()));
     std::array<double, 8> history{};
@@ -100,23 +100,27 @@ TEST(J2, AgreesWithTheTextbookAlgorithmInExtendedPrecision) {
       ASSERT_EQ(p.status, CLEAVE_OK) << last_message();
       const Reference r = reference(kG, kKappa, steel_yield, H, before, history[6]);
       const Matrix3 inv = inverse(F);
-      const double scale = kE * largest(inv);
+      const double scale = kE * largest(inv) * r.condition;
       worst = std::fmax(worst, distance(p.P, r.P) / scale);
-      EXPECT_NEAR(p.strain(), static_cast<double>(r.strain), 1e-13 * (1 + p.strain()));
-      EXPECT_NEAR(p.energy, static_cast<double>(r.energy), 1e-12 * static_cast<double>(r.energy));
+      worst_strain = std::fmax(worst_strain,
+                               std::fabs(p.strain() - static_cast<double>(r.strain)) / r.condition);
+      EXPECT_NEAR(p.energy, static_cast<double>(r.energy),
+                  3e-14 * r.condition * static_cast<double>(r.energy));
       for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j) {
           const Real mine = static_cast<Real>(p.history[static_cast<std::size_t>(order[i][j])]) +
                             (i == j ? 1 : 0);
-          const Real size_here = 1 + largest(inv) * largest(inv) * largest(F) * largest(F);
+          const Real size_here = largest(inv) * largest(inv) * largest(F) * largest(F) *
+                                 static_cast<Real>(r.condition);
           worst_metric = std::fmax(worst_metric,
                                    static_cast<double>(std::fabs(mine - r.cpi[i][j]) / size_here));
         }
       history = p.history;
     }
   }
-  EXPECT_LT(worst, 1e-14);
-  EXPECT_LT(worst_metric, 1e-14);
+  EXPECT_LT(worst, 1e-15);         // measured 2.4e-16
+  EXPECT_LT(worst_strain, 1e-15);  // measured 1.4e-16
+  EXPECT_LT(worst_metric, 2e-15);  // measured 3.3e-16
 }
 
 // Where F^T F - I would have lost all digits: the linear law, up to the square of the strain.
@@ -165,7 +169,7 @@ TEST(J2, TurnsWithARotationAndForgetsAnEarlierOne) {
       turned = b.history;
     }
   }
-  EXPECT_LT(worst, 1e-14);
+  EXPECT_LT(worst, 4e-15);  // measured 8.3e-16
 }
 
 TEST(J2, IsTheSameInEveryConsistentSetOfUnits) {
@@ -206,9 +210,7 @@ TEST(J2, StoresAndDissipatesWhatIsPutIn) {
     double work = 0, dissipated = 0;
     for (int n = 1; n <= steps; ++n) {
       const double s = static_cast<double>(n) / steps;
-      H = {{{0.2 * s, 0.1 * s * s, 0},
-            {-0.05 * s, -0.08 * s, 0.1 * std::sin(3 * s)},
-            {0, 0, 0.03 * s}}};
+      H = {{{0.2 * s, 0.1 * s * s, 0}, {-0.05 * s, -0.12 * s, 0.1 * s}, {0, 0, -0.05 * s}}};
       const Point p = ask(material, CLEAVE_3D, properties, H, history);
       ASSERT_EQ(p.status, CLEAVE_OK);
       for (std::size_t r = 0; r < 3; ++r)
@@ -219,8 +221,8 @@ TEST(J2, StoresAndDissipatesWhatIsPutIn) {
       before = p;
       last = H;
     }
-    EXPECT_GT(dissipated, 0.8 * work);
-    EXPECT_NEAR(before.energy + dissipated, work, 2e-6 * work) << material;
+    EXPECT_GT(dissipated, 0.8 * work) << dissipated << ' ' << work;
+    EXPECT_NEAR(before.energy + dissipated, work, 2e-6 * work) << material;  // measured 6e-7
   }
 }
 

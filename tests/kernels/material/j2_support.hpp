@@ -85,7 +85,10 @@ inline Matrix3 random_matrix(Random& random, double size) {
 // A rotation by Rodrigues' formula about a random axis.
 inline Matrix3 random_rotation(Random& random) {
   double a[3], length = 0;
-  for (double& x : a) length += (x = random()) * x;
+  for (double& x : a) {
+    x = random();
+    length += x * x;
+  }
   for (double& x : a) x /= std::sqrt(length);
   const double angle = 3 * random(), s = std::sin(angle), c = 1 - std::cos(angle);
   const Matrix3 w = {{{0, -a[2], a[1]}, {a[2], 0, -a[0]}, {-a[1], a[0], 0}}};
@@ -102,6 +105,7 @@ using Wide = std::array<std::array<Real, 3>, 3>;
 struct Reference {
   Wide P{};
   Real strain = 0, energy = 0, equivalent = 0;
+  double condition = 1;  // of B*: the factor by which any algorithm in terms of B* loses digits
   Wide cpi{};
 };
 
@@ -159,10 +163,15 @@ inline Reference reference(Real g, Real kappa, const std::function<Real(Real)>& 
   std::array<Real, 3> b{}, e{}, tau{}, be{};
   Wide v{};
   wide_eigen(wide_product(f, wide_product(cpi, transposed(f))), b, v);
+  Reference r;
+  r.condition = static_cast<double>(std::fmax(b[0], std::fmax(b[1], b[2])) /
+                                    std::fmin(b[0], std::fmin(b[1], b[2])));
   Real t = 0, dd = 0;
   for (std::size_t a = 0; a < 3; ++a) t += e[a] = 0.5L * std::log(b[a]);
-  for (Real& x : e) dd += (x -= t / 3) * x;
-  Reference r;
+  for (Real& x : e) {
+    x -= t / 3;
+    dd += x * x;
+  }
   Real equivalent = 2 * g * std::sqrt(1.5L * dd), theta = 1;
   r.strain = strain;
   if (equivalent > yield(strain)) {

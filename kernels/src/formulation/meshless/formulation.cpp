@@ -75,6 +75,11 @@ void KernelMethod::rebuild(Body& body, int threads) {
   points_.gradients(body, operator_, threads);
 }
 
+std::string KernelMethod::static_obstacle(const Body&) const {
+  return hourglass_.active() ? "it has no tangent of the hourglass penalty; leave &hourglass out"
+                             : "";
+}
+
 void KernelMethod::deform(Body& body, const Clock& clock, int threads) {
   dt_ = clock.dt;
   points_.deform(body, operator_, clock, threads);

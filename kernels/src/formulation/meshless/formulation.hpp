@@ -20,6 +20,7 @@ class KernelMethod : public Formulation {
   void rebuild(Body& body, int threads) override;
   double stable_step(const Body&) const override { return stable_step_; }
   const BodyOperator* gradient_operator() const override { return &operator_; }
+  std::string static_obstacle(const Body& body) const override;
 
   void break_bonds(Body&, const Clock&, int) override {}
   void deform(Body& body, const Clock& clock, int threads) override;

@@ -23,9 +23,10 @@ inline constexpr std::array kKernelParameters = {
                      "corrected: exact for affine motion; plain: without correction, wrong at "
                      "surfaces; tlsph only",
                      "[SPH moment]"),
-    choice_parameter("influence", "constant|cone|spline|inverse_distance|gaussian|tlsph", "spline",
-                     "weight of a neighbour by its distance; tlsph: the one that makes both "
-                     "methods equal; nosb only",
+    choice_parameter("influence", "default|constant|cone|spline|inverse_distance|gaussian|tlsph",
+                     "default",
+                     "weight of a neighbour by its distance, nosb only; default: spline; tlsph: "
+                     "the one that makes both methods equal",
                      "[SPH influence]"),
 };
 

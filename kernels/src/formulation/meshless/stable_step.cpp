@@ -23,6 +23,7 @@ class LinearBody {
       : body_(body), g_(g), hourglass_(hourglass) {
     h_.assign(static_cast<std::size_t>(kTensor * body.particles), 0.0);
     p_ = h_;
+    undeformed_.assign(static_cast<std::size_t>(body.particles), 1.0);
     mu_ = with_law(body.material, [](const auto& law) { return law.shear_modulus(); });
     const double density = with_law(body.material, [](const auto& law) { return law.density(); });
     const double speed = with_law(body.material, [](const auto& law) { return law.wave_speed(); });
@@ -57,9 +58,8 @@ class LinearBody {
   void damping(const cbm::BondRate<std::int32_t>& rate, const std::vector<double>& weight,
                std::span<const double> v, std::span<double> out) {
     std::fill(out.begin(), out.end(), 0.0);
-    const std::vector<double> ratio(static_cast<std::size_t>(body_.particles), 1.0);
-    cbm::viscous_force_frozen<D>(g_, rate, weight.data(), body_.point.X, v.data(), ratio.data(), 0,
-                                 body_.particles, out.data());
+    cbm::viscous_force_frozen<D>(g_, rate, weight.data(), body_.point.X, v.data(),
+                                 undeformed_.data(), 0, body_.particles, out.data());
     over_minus_mass(out);
   }
 
@@ -83,7 +83,8 @@ class LinearBody {
   const Body& body_;
   const BodyOperator& g_;
   const Hourglass& hourglass_;
-  std::vector<double> h_, p_;  // (9,n)
+  std::vector<double> h_, p_;       // (9,n)
+  std::vector<double> undeformed_;  // (n) det F
   double lambda_ = 0, mu_ = 0;
 };
 

@@ -14,6 +14,7 @@
 
 namespace cleave::nosb {
 
+// In the order of the choices of group kernel, after "default".
 enum class Influence { constant, cone, spline, inverse_distance, gaussian, tlsph };
 
 // Those that do not vanish at the horizon count particles at the horizon in.

@@ -6,15 +6,15 @@ namespace cleave::nosb {
 
 meshless::Kernel CorrespondencePeridynamics::make_kernel(const Body& body) const {
   const ParameterSet& options = body.group("kernel");
-  if (options.given("gradient") &&
-      options.choice("gradient") == static_cast<int>(meshless::GradientForm::plain)) {
+  if (options.choice("gradient") == static_cast<int>(meshless::GradientForm::plain)) {
     throw Error(CLEAVE_UNSUPPORTED,
                 text("group kernel of ", body.label(),
                      ": gradient 'plain' belongs to formulation tlsph; nosb is always corrected"));
   }
   const tlsph::CubicSpline spline(body.dimension(), kernel_radius(body));
   const double horizon = tlsph::CubicSpline::kSupport * spline.radius();
-  const auto form = static_cast<Influence>(options.choice("influence"));
+  const int choice = options.choice("influence");
+  const auto form = choice == 0 ? Influence::spline : static_cast<Influence>(choice - 1);
   meshless::Kernel kernel;
   kernel.omega = InfluenceFunction(form, body.dimension(), horizon);
   kernel.spline = [spline](double distance) { return spline.value(distance); };

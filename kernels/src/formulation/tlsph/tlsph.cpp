@@ -6,7 +6,7 @@ namespace cleave::tlsph {
 
 meshless::Kernel TotalLagrangianSph::make_kernel(const Body& body) const {
   const ParameterSet& options = body.group("kernel");
-  if (options.given("influence")) {
+  if (options.choice("influence") != 0) {
     throw Error(CLEAVE_UNSUPPORTED,
                 text("group kernel of ", body.label(),
                      ": influence belongs to formulation nosb; tlsph weighs by the slope of its "

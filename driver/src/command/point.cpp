@@ -1,0 +1,226 @@
+#include "command/point.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+
+#include "deck/deck.hpp"
+#include "deck/kernel_tables.hpp"
+#include "deck/nearest_name.hpp"
+#include "io/csv.hpp"
+#include "scene/model.hpp"
+
+namespace cleave::driver {
+namespace {
+
+constexpr std::array<const char*, 9> kPlaces = {"xx", "yx", "zx", "xy", "yy",
+                                                "zy", "xz", "yz", "zz"};  // as in cleave.h
+
+struct PathRow {
+  double time = 0;
+  std::array<double, 9> h{};  // F - I
+};
+
+double number_in(std::string_view text, const std::string& where) {
+  while (!text.empty() && (text.front() == ' ' || text.front() == '+')) text.remove_prefix(1);
+  while (!text.empty() && (text.back() == ' ' || text.back() == '\r')) text.remove_suffix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) {
+    throw DeckError(where + ": \"" + std::string(text) + "\" is not a finite number");
+  }
+  return value;
+}
+
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> parts(1);
+  for (const char c : line) {
+    if (c == ',') {
+      parts.emplace_back();
+    } else if (c != '\r' && c != '"') {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
+// What a column of the path means: -1 time, 0 to 8 a component; is_f: of F, not of H.
+struct PathColumn {
+  int place = -1;
+  bool is_f = false;
+};
+
+PathColumn column_of(std::string name, const std::string& where) {
+  name = name.substr(0, name.find(" ["));
+  std::vector<std::string> known{"time"};
+  if (name == "time") return {};
+  for (const char kind : {'F', 'H'}) {
+    for (int place = 0; place < 9; ++place) {
+      known.push_back(std::string(1, kind) + "_" + kPlaces[static_cast<std::size_t>(place)]);
+      if (name == known.back()) return {place, kind == 'F'};
+    }
+  }
+  throw DeckError(where + ": column \"" + name + "\" is unknown; allowed: " + listed(known) +
+                  did_you_mean(name, known));
+}
+
+std::vector<PathRow> read_path(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw DeckError(path + ": the path cannot be opened; give a CSV file with --path");
+  std::string line;
+  std::getline(file, line);
+  std::vector<PathColumn> columns;
+  for (const std::string& name : split(line)) columns.push_back(column_of(name, path + ":1"));
+  std::vector<PathRow> rows;
+  for (int n = 2; std::getline(file, line); ++n) {
+    if (line.find_first_not_of(" \r") == std::string::npos) continue;
+    const std::string where = path + ":" + std::to_string(n);
+    const auto parts = split(line);
+    if (parts.size() != columns.size()) {
+      throw DeckError(where + ": " + std::to_string(parts.size()) + " numbers for " +
+                      std::to_string(columns.size()) + " columns");
+    }
+    PathRow row;
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      const double value = number_in(parts[c], where);
+      const int place = columns[c].place;
+      if (place < 0) {
+        row.time = value;
+      } else {
+        row.h[static_cast<std::size_t>(place)] =
+            value - (columns[c].is_f && place % 4 == 0 ? 1.0 : 0.0);
+      }
+    }
+    if (!rows.empty() && !(row.time > rows.back().time)) {
+      throw DeckError(where + ": times must increase");
+    }
+    rows.push_back(row);
+  }
+  if (rows.empty()) throw DeckError(path + ": no rows after the header");
+  return rows;
+}
+
+std::vector<double> properties_of(const PointRequest& request) {
+  const auto specs = table_parameters(request.law);
+  std::vector<double> values;
+  std::vector<char> given(specs.size(), 0);
+  std::vector<std::string> names;
+  for (const cleave_parameter& spec : specs) {
+    values.push_back(spec.default_value);
+    names.emplace_back(spec.name);
+  }
+  for (const std::string& word : request.properties) {
+    const std::size_t sign = word.find('=');
+    const std::string name = word.substr(0, sign);
+    std::size_t k = 0;
+    while (k < names.size() && names[k] != name) ++k;
+    if (sign == std::string::npos || k == names.size()) {
+      throw DeckError("\"" + word + "\" is not NAME=VALUE of law " + request.law +
+                      "; its properties: " + listed(names) + did_you_mean(name, names));
+    }
+    values[k] = number_in(std::string_view(word).substr(sign + 1), "property " + name);
+    given[k] = 1;
+  }
+  for (std::size_t k = 0; k < specs.size(); ++k) {
+    if (specs[k].required != 0 && given[k] == 0) {
+      throw DeckError("law " + request.law + " needs the property " + names[k] + " [" +
+                      specs[k].units + "], " + specs[k].description + "; give " + names[k] +
+                      "=VALUE");
+    }
+  }
+  return values;
+}
+
+double kirchhoff_equivalent(const std::array<double, 9>& h, const std::array<double, 9>& p) {
+  std::array<double, 9> tau{};
+  for (std::size_t r = 0; r < 3; ++r)
+    for (std::size_t c = 0; c < 3; ++c)
+      for (std::size_t k = 0; k < 3; ++k)
+        tau[r + 3 * c] += p[r + 3 * k] * (h[c + 3 * k] + (c == k ? 1.0 : 0.0));
+  const double mean = (tau[0] + tau[4] + tau[8]) / 3;
+  double sum = 0;
+  for (std::size_t c = 0; c < 9; ++c) {
+    const double d = tau[c] - (c % 4 == 0 ? mean : 0.0);
+    sum += d * d;
+  }
+  return std::sqrt(1.5 * sum);
+}
+
+std::vector<io::Column> columns_of(const std::string& law) {
+  std::vector<io::Column> columns{{"time", "s", "", false}};
+  for (const char kind : {'F', 'P'})
+    for (const char* place : kPlaces)
+      columns.push_back({std::string(1, kind) + "_" + place, kind == 'F' ? "1" : "Pa", "", false});
+  columns.push_back({"kirchhoff_equivalent_stress", "Pa", "", false});
+  for (const char* name : {"energy", "plastic_work"}) columns.push_back({name, "J m-3", "", false});
+  for (const cleave_field& field : table_fields()) {
+    if (law != field.owner) continue;
+    for (int c = 1; c <= field.components; ++c) {
+      columns.push_back(
+          {field.components == 1 ? field.name : std::string(field.name) + "_" + std::to_string(c),
+           field.units, "", false});
+    }
+  }
+  return columns;
+}
+
+}  // namespace
+
+void follow_path(const PointRequest& request, const std::function<void(std::string_view)>& out) {
+  std::int32_t law = 0;
+  check(cleave_table_find(CLEAVE_TABLE_MATERIAL, request.law.c_str(), &law));
+  const std::vector<double> properties = properties_of(request);
+  const std::vector<PathRow> rows = read_path(request.path);
+  std::int64_t history_count = 0;
+  check(cleave_material_history_count(law, &history_count));
+  std::vector<double> history(static_cast<std::size_t>(history_count), 0.0);
+  std::array<double, 9> h{}, p{};
+  double energy = 0, plastic = 0, plastic_work = 0;
+
+  cleave_material_call call{};
+  check(cleave_material_call_init(&call));
+  call.material = law;
+  call.kinematics = request.kinematics == "3d"             ? CLEAVE_3D
+                    : request.kinematics == "plane_strain" ? CLEAVE_PLANE_STRAIN
+                                                           : CLEAVE_PLANE_STRESS;
+  call.property_count = static_cast<std::int64_t>(properties.size());
+  call.properties = properties.data();
+  call.last = 1;
+  call.length = request.length;
+  call.deformation = h.data();
+  call.history = history.empty() ? nullptr : history.data();
+  call.stress = p.data();
+  call.energy = &energy;
+  call.plastic = &plastic;
+
+  const std::vector<io::Column> columns = columns_of(request.law);
+  out(io::csv_header(columns));
+  double last_time = rows.front().time;
+  std::string text;
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    const PathRow& to = rows[row];
+    const PathRow& from = row == 0 ? to : rows[row - 1];
+    const std::int64_t parts = row == 0 ? 1 : request.steps;
+    for (std::int64_t part = 1; part <= parts; ++part) {
+      const double s = static_cast<double>(part) / static_cast<double>(parts);
+      for (std::size_t c = 0; c < 9; ++c)
+        h[c] = part == parts ? to.h[c] : from.h[c] + s * (to.h[c] - from.h[c]);
+      const double time = part == parts ? to.time : from.time + s * (to.time - from.time);
+      call.dt = time - last_time;
+      last_time = time;
+      check(cleave_material_update(&call));
+      plastic_work += plastic;
+      std::vector<double> record{time};
+      for (std::size_t c = 0; c < 9; ++c) record.push_back(h[c] + (c % 4 == 0 ? 1.0 : 0.0));
+      record.insert(record.end(), p.begin(), p.end());
+      record.insert(record.end(), {kirchhoff_equivalent(h, p), energy, plastic_work});
+      record.insert(record.end(), history.begin(), history.end());
+      text.clear();
+      io::append_csv_records(text, columns, record);
+      out(text);
+    }
+  }
+}
+
+}  // namespace cleave::driver
