@@ -10,13 +10,14 @@
 #include "command/export.hpp"
 #include "command/info.hpp"
 #include "command/keys.hpp"
-#include "command/point.hpp"
 #include "command/tables.hpp"
 #include "command/waiting_threads.hpp"
 #include "deck/nearest_name.hpp"
 #include "io/error.hpp"
 #include "io/namelist.hpp"
+#include "run/point.hpp"
 #include "run/run.hpp"
+#include "run/sample.hpp"
 
 namespace {
 
@@ -30,6 +31,7 @@ struct Words {
   RunOptions run;
   ExportRequest to_export;
   PointRequest point;
+  SampleRequest sample;
 };
 
 int print(const std::string& text) {
@@ -154,6 +156,25 @@ void add_export_command(CLI::App& app, Words& words, Action& chosen) {
       ->type_name("FILE");
 }
 
+void add_sample_command(CLI::App& app, Words& words, Action& chosen) {
+  SampleRequest& request = words.sample;
+  CLI::App& command = add_command(
+      app, chosen, "sample", "fields of a checkpoint at given points, as CSV", [&request] {
+        sample_checkpoint(request, [](std::string_view text) { std::cout << text; });
+        return int{kDone};
+      });
+  command.add_option("CHECKPOINT", request.checkpoint, "checkpoint or directory")->required();
+  command.add_option("--at", request.points, "CSV with columns X, Y (and Z): reference positions")
+      ->required()
+      ->type_name("FILE");
+  command.add_option("--fields", request.fields, "fields, stored or derived: a,b,...")
+      ->required()
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("NAMES");
+  command.add_option("--body", request.body, "body; default: the only one")->type_name("NAME");
+}
+
 void add_point_command(CLI::App& app, Words& words, Action& chosen) {
   PointRequest& request = words.point;
   CLI::App& command = add_command(
@@ -232,6 +253,7 @@ int run_command_line(int argc, char** argv) {
   add_file_commands(app, words, chosen);
   add_export_command(app, words, chosen);
   add_point_command(app, words, chosen);
+  add_sample_command(app, words, chosen);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

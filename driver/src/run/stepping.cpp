@@ -9,7 +9,11 @@ Stepping::Stepping(const Deck& deck)
       adapt_(deck.one("run").logical("adapt") && deck.one("run").real("time_step") == 0),
       tolerance_(deck.one("static").real("tolerance")),
       max_iterations_(deck.one("static").integer("max_iterations")),
-      cut_backs_(deck.one("static").integer("cut_backs")) {}
+      cut_backs_(deck.one("static").integer("cut_backs")) {
+  for (const DeckGroup* wall : deck.all("wall")) {
+    if (static_) deck.fail(*wall, "a wall needs inertia to push against; use mode = 'dynamic'");
+  }
+}
 
 void Stepping::start(Scene& scene, double dt) const {
   scene.put_initial_velocities();

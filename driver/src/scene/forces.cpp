@@ -72,16 +72,26 @@ std::vector<int> all_directions(const std::vector<BodyGeometry>& bodies,
 
 Forces::Forces(const Deck& deck, const std::vector<BodyGeometry>& bodies, const Sets& sets,
                const Model& model)
-    : loaded_(bodies.size(), 0), pressed_(bodies.size(), 0) {
+    : walls_(deck, bodies, sets, model), loaded_(bodies.size(), 0), moving_(bodies.size(), 0) {
   for (const BodyGeometry& body : bodies) geometry_.push_back(&body);
   for (const DeckGroup* group : deck.all("load")) {
     if (is_force(group->text("kind"))) add(deck, bodies, sets, model, *group);
+  }
+  for (const Walls::Wall& wall : walls_.all()) {
+    std::vector<int> directions;
+    for (int k = 0; k < 3; ++k) {
+      if (wall.normal[k] != 0) directions.push_back(k);
+    }
+    resultants_.push_back({wall.name, directions, {0, 0, 0}});
+  }
+  for (std::size_t body = 0; body < bodies.size(); ++body) {
+    if (walls_.touches(static_cast<Index>(body))) loaded_[body] = moving_[body] = 1;
   }
   external_.resize(bodies.size());
   position_.resize(bodies.size());
   for (std::size_t body = 0; body < bodies.size(); ++body) {
     if (loaded_[body] != 0) external_[body].resize(bodies[body].X.size());
-    if (pressed_[body] != 0) position_[body].resize(bodies[body].X.size());
+    if (moving_[body] != 0) position_[body].resize(bodies[body].X.size());
   }
 }
 
@@ -122,7 +132,7 @@ void Forces::add(const Deck& deck, const std::vector<BodyGeometry>& bodies, cons
                 "a " + kind + " cannot act on quadratic elements; use a force or linear elements");
     }
     if (kind == "pressure") {
-      pressed_[at(selection.body)] = 1;
+      moving_[at(selection.body)] = 1;
       load.surfaces.push_back({selection.body, surface_facets(body, selection.particles)});
       facets += load.surfaces.back().facets.size();
     } else {
@@ -147,8 +157,8 @@ void Forces::add(const Deck& deck, const std::vector<BodyGeometry>& bodies, cons
 }
 
 void Forces::apply(Model& model, double time) {
-  if (loads_.empty()) return;
-  bool changed = fresh_;
+  if (resultants_.empty()) return;
+  bool changed = fresh_ || !walls_.all().empty();
   for (Load& load : loads_) {
     const double amount = load.value * load.curve.factor(time);
     changed = changed || amount != load.amount || (!load.surfaces.empty() && amount != 0);
@@ -163,6 +173,7 @@ void Forces::apply(Model& model, double time) {
     add_dead(i);
     add_pressure(i);
   }
+  add_walls();
   for (std::size_t body = 0; body < external_.size(); ++body) {
     if (loaded_[body] != 0) model.put(static_cast<Index>(body), "external_force", external_[body]);
   }
@@ -202,9 +213,18 @@ void Forces::add_pressure(std::size_t index) {
   }
 }
 
+void Forces::add_walls() {
+  walls_.clear_resultants();
+  for (std::size_t body = 0; body < external_.size(); ++body) {
+    if (moving_[body] != 0) walls_.add(static_cast<Index>(body), position_[body], external_[body]);
+  }
+  for (std::size_t i = 0; i < walls_.all().size(); ++i)
+    std::copy_n(walls_.all()[i].force, 3, resultants_[loads_.size() + i].force);
+}
+
 void Forces::find_positions(const Model& model) {
   for (std::size_t body = 0; body < position_.size(); ++body) {
-    if (pressed_[body] == 0) continue;
+    if (moving_[body] == 0) continue;
     std::vector<double>& position = position_[body];
     model.get(static_cast<Index>(body), "displacement", position);
     for (std::size_t i = 0; i < position.size(); ++i) position[i] += geometry_[body]->X[i];

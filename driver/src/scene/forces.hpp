@@ -1,5 +1,5 @@
-// External forces: from the &load groups of kind force, traction, pressure, body_force and gravity
-// to the field "external_force" of every body.
+// External forces: from the &load groups of kind force, traction, pressure, body_force and gravity,
+// and from &wall, to the field "external_force" of every body.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,7 @@
 #include "scene/curve.hpp"
 #include "scene/model.hpp"
 #include "scene/sets.hpp"
+#include "scene/walls.hpp"
 
 namespace cleave::driver {
 
@@ -28,6 +29,7 @@ class Forces {
     std::vector<int> directions;
     double force[3];  // sum over all particles [N], as put last
   };
+  // Loads, then walls.
   const std::vector<Resultant>& resultants() const { return resultants_; }
 
  private:
@@ -55,14 +57,16 @@ class Forces {
                         const Selection& selection, const Model& model);
   void add_dead(std::size_t load);
   void add_pressure(std::size_t load);
+  void add_walls();
   void find_positions(const Model& model);
 
   std::vector<BodyGeometry const*> geometry_;
   std::vector<Load> loads_;
+  Walls walls_;
   std::vector<Resultant> resultants_;
-  std::vector<char> loaded_, pressed_;         // per body: by any load, by a pressure
+  std::vector<char> loaded_, moving_;  // per body: has a force, one that depends on position
   std::vector<std::vector<double>> external_;  // (3, n) per loaded body
-  std::vector<std::vector<double>> position_;  // (3, n) per pressed body
+  std::vector<std::vector<double>> position_;  // (3, n) per body with such a force
   bool fresh_ = true;
 };
 

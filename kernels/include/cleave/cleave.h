@@ -479,6 +479,20 @@ CLEAVE_API int32_t cleave_field_get_integer(cleave_model* model, int64_t body, c
 CLEAVE_API int32_t cleave_field_put_integer(cleave_model* model, int64_t body, const char* name,
                                             int64_t first, int64_t last, const int64_t* values);
 
+/* Fields at any points of the reference configuration, through the simplices of the body.  Locate once,
+ * interpolate as often as wanted.  Fields of particles are linear in a simplex (quadratic with six
+ * nodes); fields of integration points are the constant or linear function through those of the
+ * element.
+ * [in]  X (3,n)         reference positions [m]
+ * [out] simplex (n)     the simplex that holds the point, -1 outside of the body
+ * [out] weight (4,n)    its barycentric coordinates
+ * [out] values (components,n)   zero outside */
+CLEAVE_API int32_t cleave_body_locate(cleave_model* model, int64_t body, int64_t count,
+                                      const double* X, int64_t* simplex, double* weight);
+CLEAVE_API int32_t cleave_field_interpolate(cleave_model* model, int64_t body, const char* name,
+                                            int64_t count, const int64_t* simplex,
+                                            const double* weight, double* values);
+
 /* After all setup and state fields were put: rebuilds the caches and sets the clock.  Stepping then
  * continues as if it had never stopped, bit for bit. */
 CLEAVE_API int32_t cleave_model_restore(cleave_model* model, int64_t step, double time);

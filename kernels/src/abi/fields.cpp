@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "abi/guard.hpp"
+#include "model/interpolation.hpp"
 #include "model/model.hpp"
 
 using namespace cleave;
@@ -134,6 +135,53 @@ int32_t cleave_field_put_integer(cleave_model* model, int64_t body, const char* 
     for (int64_t k = 0; k < f.spec.components * (last - first); ++k) {
       f.integer[static_cast<std::size_t>(f.spec.components * first + k)] =
           static_cast<std::int32_t>(values[k]);
+    }
+  });
+}
+
+int32_t cleave_body_locate(cleave_model* model, int64_t body, int64_t count, const double* X,
+                           int64_t* simplex, double* weight) {
+  return guarded("cleave_body_locate", [&] {
+    Body& b = body_with_fields(model, body);
+    if (count < 0) throw Error(CLEAVE_BAD_ARGUMENT, text("count is ", count, "; allowed: >= 0"));
+    if (count == 0) return;
+    required(X, "X");
+    required(simplex, "simplex");
+    required(weight, "weight");
+    const auto found = locate(b, {X, static_cast<std::size_t>(kVector * count)});
+    for (std::size_t p = 0; p < found.size(); ++p) {
+      simplex[p] = found[p].simplex;
+      std::copy(found[p].weight.begin(), found[p].weight.end(), weight + 4 * p);
+    }
+  });
+}
+
+int32_t cleave_field_interpolate(cleave_model* model, int64_t body, const char* name, int64_t count,
+                                 const int64_t* simplex, const double* weight, double* values) {
+  return guarded("cleave_field_interpolate", [&] {
+    Body& b = body_with_fields(model, body);
+    const Field& f = find_field(b, name, CLEAVE_REAL);
+    if (f.spec.relation != CLEAVE_RELATION_POINT && f.spec.relation != CLEAVE_RELATION_SIMPLEX &&
+        f.spec.relation != CLEAVE_RELATION_INTEGRATION_POINT) {
+      throw Error(CLEAVE_BAD_ARGUMENT,
+                  text("field '", name,
+                       "' has no value at a point; ask for a field of particles, "
+                       "simplices or integration points"));
+    }
+    if (count < 0) throw Error(CLEAVE_BAD_ARGUMENT, text("count is ", count, "; allowed: >= 0"));
+    if (count == 0) return;
+    required(simplex, "simplex");
+    required(weight, "weight");
+    required(values, "values");
+    const Field* simplices = b.fields.find("simplex_particles");
+    for (int64_t p = 0; p < count; ++p) {
+      Location at{simplex[p], {}};
+      if (at.simplex >= (simplices == nullptr ? 0 : simplices->count)) {
+        throw Error(CLEAVE_BAD_RANGE, text("simplex ", at.simplex, " of point ", p,
+                                           " does not exist; use what cleave_body_locate gave"));
+      }
+      std::copy_n(weight + 4 * p, 4, at.weight.begin());
+      interpolate(b, f, at, values + f.spec.components * p);
     }
   });
 }

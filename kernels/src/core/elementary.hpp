@@ -1,7 +1,7 @@
-// exp, expm1 and log1p from IEEE arithmetic alone, for R = double and R = Pack: the same bits in
+// exp, expm1, log, log1p and powers from IEEE arithmetic alone, for R = double and R = Pack: the same bits in
 // every lane, on every machine and with every C library. Largest error against long double, measured
-// over the ranges of the test: exp 1 ulp, expm1 2 ulp, log1p 2 ulp. Arguments must be finite; nothing
-// here traps. Not for arguments near the ends of the range of double: they are cut, see each function.
+// over the ranges of the test: exp 1 ulp, expm1 2 ulp, log and log1p 2 ulp. Arguments must be finite;
+// nothing here traps. Not for arguments near the ends of the range of double: they are cut, see each function.
 #pragma once
 
 #include "core/lanes.hpp"
@@ -47,6 +47,16 @@ template <class R>
   return scale * expm1_reduced(r) + (scale - 1.0);
 }
 
+// e ln 2 + ln(1+f) + corrected - e kLn2Low, for sqrt(1/2) <= 1+f <= sqrt(2).
+template <class R>
+CLEAVE_INLINE R log_assembled(const R& f, const R& e, const R& corrected) {
+  const R s = f / (2.0 + f), z = s * s;  // |s| <= 0.1716
+  // ln(1+f) = 2 artanh s = 2s + sum 2 s^(2k+1)/(2k+1), and 2s = f - s f.
+  R tail = 2.0 / 23 + R(0.0);
+  for (int n = 21; n >= 3; n -= 2) tail = 2.0 / n + z * tail;
+  return e * kLn2High + (f - (s * (f - z * tail) - corrected));
+}
+
 }  // namespace elementary
 
 // e^x; x is cut to [-708, 709].
@@ -77,12 +87,27 @@ inline R log_one_plus(const R& x) {
   e = select(upper, e + 1.0, e);
   const MaskOf<R> reduced = (e > 0.0) | (e < 0.0);
   const R f = select(reduced, select(upper, 0.5 * m, m) - 1.0, x);
-  const R s = f / (2.0 + f), z = s * s;  // |s| <= 0.1716
-  // ln(1+f) = 2 artanh s = 2s + sum 2 s^(2k+1)/(2k+1), and 2s = f - s f.
-  R tail = 2.0 / 23 + R(0.0);
-  for (int n = 21; n >= 3; n -= 2) tail = 2.0 / n + z * tail;
   const R corrected = select(reduced, e * elementary::kLn2Low + lost, R(0.0));
-  return e * elementary::kLn2High + (f - (s * (f - z * tail) - corrected));
+  return elementary::log_assembled(f, e, corrected);
+}
+
+// ln x of a normal x > 0.
+template <class R>
+inline R logarithm(const R& x) {
+  R e = exponent_of(x);
+  const R m = x * power_of_two(-e);  // exact, 1 <= m < 2
+  const MaskOf<R> upper = m > 0x1.6a09e667f3bcdp0;
+  e = select(upper, e + 1.0, e);
+  return elementary::log_assembled(select(upper, 0.5 * m, m) - 1.0, e, e * elementary::kLn2Low);
+}
+
+// x^a for x >= 0, a > 0: exp(a ln x), so that the relative error grows to |a ln x| ulp; 0 below the
+// normal range, and the exponent is cut as that of exponential().
+template <class R>
+inline R power(const R& x, double a) {
+  const MaskOf<R> normal = x >= std::numeric_limits<double>::min();
+  const R base = select(normal, x, R(1.0));
+  return select(normal, exponential(a * logarithm(base)), R(0.0));
 }
 
 }  // namespace cleave

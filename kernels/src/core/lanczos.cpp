@@ -55,14 +55,18 @@ double largest_of_tridiagonal(std::span<const double> diagonal, std::span<const 
 double largest_eigenvalue(std::span<const double> mass, const Product& multiply, int steps) {
   std::vector<double> now(mass.size()), before(mass.size(), 0.0), next(mass.size());
   fill_random(now);
-  for (std::size_t k = 0; k < mass.size(); ++k) {
-    if (!(mass[k] > 0)) now[k] = 0;
-  }
+  const auto leave_out = [mass](std::vector<double>& v) {
+    for (std::size_t k = 0; k < mass.size(); ++k) {
+      if (!(mass[k] > 0)) v[k] = 0;
+    }
+  };
+  leave_out(now);
   std::vector<double> diagonal, square;
   double size = std::sqrt(inner(mass, now, now)), largest = 0;
   for (int step = 0; step < steps && size > 0; ++step) {
     for (double& x : now) x /= size;
     multiply(now, next);
+    leave_out(next);
     const double alpha = inner(mass, next, now);
     const double beta = step == 0 ? 0.0 : size;
     for (std::size_t k = 0; k < mass.size(); ++k) next[k] -= alpha * now[k] + beta * before[k];

@@ -115,7 +115,7 @@ struct Pack {
 
   Pack() = default;
   Pack(double x) {  // implicit on purpose: formulas mix lanes and constants
-    for (auto& one : r) one = Register{} + x;
+    for (auto& one : r) one = x - Register{};  // keeps the sign of -0
   }
 };
 

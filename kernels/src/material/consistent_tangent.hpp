@@ -104,25 +104,31 @@ bool SpectralModuli::evaluate(const ReturnMapping<Hardening, Bulk>& law,
   const double g = law.shear_modulus();
   std::array<double, ReturnMapping<Hardening, Bulk>::kHardeningMemory> memory{};
   for (std::size_t k = 0; k < memory.size(); ++k) memory[k] = committed.history[7 + k];
+  Setting<double> here = setting;
+  here.volume_ratio = ratio;
   const auto flow =
-      law.template flow_of<double>(committed.history[6], memory, setting, g * std::sqrt(1.5 * dd));
+      law.template flow_of<double>(committed.history[6], memory, here, g * std::sqrt(1.5 * dd));
 
   std::array<double, ReturnMapping<Hardening, Bulk>::kBulkMemory> bulk_memory{};
   for (std::size_t k = 0; k < bulk_memory.size(); ++k)
     bulk_memory[k] = committed.history[7 + memory.size() + k];
-  const Volume<double> volume{0.5 * sum, c.volume_change, ratio,
-                              0.25 * g * flow.theta * flow.theta * dd, flow.work};
-  const double modulus = law.bulk().modulus(volume);
-  const double mean = law.bulk().respond(volume, bulk_memory, setting).stress;
+  Volume<double> volume{0.5 * sum, c.volume_change, ratio, 0.25 * g * flow.theta * flow.theta * dd,
+                        flow.work};
+  if constexpr (Hardening::kFails) volume.failed = law.hardening().failed(memory);
+  const double modulus = law.bulk().modulus(volume, bulk_memory, here);
+  const double mean = law.bulk().respond(volume, bulk_memory, here).stress;
 
   const double turn =
       flow.active && dd > 0 ? 2 * g * (1 / (1 + flow.slope / (3 * g)) - flow.removed) / dd : 0.0;
+  // Of the deviator with ln J, by the factor J of the yield stress.
+  const double swell =
+      Hardening::kCauchy && flow.active ? flow.theta * g / (1 + flow.slope / (3 * g)) : 0.0;
   double principal[3];
   for (int a = 0; a < 3; ++a) {
     principal[a] = mean + flow.theta * g * d[a];
     for (int b = 0; b < 3; ++b) {
-      diagonal_[a][b] =
-          modulus + 2 * g * flow.theta * ((a == b ? 1.0 : 0.0) - 1.0 / 3) - turn * d[a] * d[b];
+      diagonal_[a][b] = modulus + 2 * g * flow.theta * ((a == b ? 1.0 : 0.0) - 1.0 / 3) -
+                        turn * d[a] * d[b] + swell * d[a];
       const double x = (frame_.value[a] - frame_.value[b]) / metric_[b];
       shear_[a][b] = g * flow.theta * log_quotient(x) / metric_[b];
     }

@@ -12,6 +12,10 @@
 //   advance(start, x, rise, slope)  h(e+x) - h(e) without cancellation, and h'(e+x)
 //   work(start, x)               int of the yield stress from e to e+x [Pa]
 //   finish(start, x, flow, memory)  what the flow makes of the memory
+//   kCauchy                      whether the yield stress is J times a function of the strain, rate and
+//                                memory, with J = setting.volume_ratio; lower_bound is without J
+//   kFails, failed(memory)       whether points may fail, and which have: they carry no deviator, no
+//                                tension, and their yield stress is 0
 #pragma once
 
 #include <algorithm>
@@ -28,8 +32,9 @@ namespace cleave {
 // The step as a point sees it.
 template <class R>
 struct Setting {
-  double dt = 0;  // [s]; 0: no rates
-  R length{0.0};  // [m]
+  double dt = 0;        // [s]; 0: no rates
+  R length{0.0};        // [m]
+  R volume_ratio{1.0};  // J at the end of the step
 };
 
 // What a step of plastic flow was: for temperature and damage.
@@ -44,7 +49,7 @@ struct Flow {
 // For a hardening that only depends on the strain.
 struct RateIndependent {
   static constexpr std::array<FieldSpec, 0> kMemory{};
-  static constexpr bool kSmooth = false;
+  static constexpr bool kSmooth = false, kCauchy = false, kFails = false;
   template <class S, class R>
   R first_guess(const S& start, const R& phi, double three_g) const {
     return phi / (three_g + start.slope);

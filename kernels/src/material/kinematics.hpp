@@ -13,7 +13,7 @@ constexpr int dimension_of(Kinematics k) { return k == CLEAVE_3D ? 3 : 2; }
 
 // Pointers to the history variables of one point, in the order of the law's kHistory. The same law
 // serves separate fields (the model) and packed arrays (array calls).
-inline constexpr int kMaxHistory = 8;
+inline constexpr int kMaxHistory = 12;
 struct History {
   std::array<double*, kMaxHistory> variable{};
 };

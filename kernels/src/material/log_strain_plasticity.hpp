@@ -31,23 +31,29 @@ inline constexpr double kReturnResidual = 4e-15, kReturnBracket = 4e-16, kStepRe
 // What a volumetric law sees.
 template <class R>
 struct Volume {
-  R log_ratio;     // t = ln J (+ 1/2 ln det Cp^-1, which is round-off)
-  R change;        // J - 1
-  R ratio;         // J
-  R shear_energy;  // stored in the deviator at the end of the step [J m-3]
-  R plastic;       // work of the plastic flow in the step [J m-3]
+  R log_ratio;                         // t = ln J (+ 1/2 ln det Cp^-1, which is round-off)
+  R change;                            // J - 1
+  R ratio;                             // J
+  R shear_energy;                      // stored in the deviator at the end of the step [J m-3]
+  R plastic;                           // work of the plastic flow in the step [J m-3]
+  MaskOf<R> failed = R(0.0) > R(0.0);  // carries no tension any more
 };
 template <class R>
 struct Spherical {
-  R stress;        // tau_m = tr(tau)/3 [Pa]
-  R energy;        // stored in the volume [J m-3]
-  R viscous{0.0};  // dissipated in the step [J m-3]
+  R stress;         // tau_m = tr(tau)/3 [Pa]
+  R energy;         // stored in the volume [J m-3]
+  R viscous{0.0};   // dissipated in the step [J m-3]
+  R released{0.0};  // dissipated in the step because the point has failed [J m-3]
 };
 
 // tau_m = kappa t.
 class LogarithmicBulk {
  public:
   static constexpr std::array<FieldSpec, 0> kMemory{};
+  static constexpr bool kBounded = false;       // whether admits() has to be asked
+  static constexpr bool kFollowsVolume = true;  // tau_m depends on J and not on what else happens
+  static constexpr bool kStiffens = false;      // whether it has a wave_speed_ratio
+  static constexpr bool kUsesLength = false;
   explicit LogarithmicBulk(double kappa) : kappa_(kappa) {}
   template <class R, class M>
   Spherical<R> respond(const Volume<R>& v, M&, const Setting<R>&) const {
@@ -55,7 +61,10 @@ class LogarithmicBulk {
     return {stress, 0.5 * (stress * v.log_ratio)};
   }
   // d tau_m / d ln J
-  double modulus(const Volume<double>&) const { return kappa_; }
+  template <class M>
+  double modulus(const Volume<double>&, const M&, const Setting<double>&) const {
+    return kappa_;
+  }
 
  private:
   double kappa_;
@@ -93,6 +102,8 @@ class ReturnMapping {
     const Symmetric<R> z = metric(history);
     const Cofactor<R> c = cofactor_of(point.h);
     const R ratio = 1.0 + c.volume_change, inverse = 1.0 / ratio;
+    Setting<R> here = setting;
+    here.volume_ratio = ratio;
     const Symmetric<R> y = push_forward_minus_identity(point.h, z);
     Symmetric<R> d = log_of(y, c.volume_change, kLargestLogStretch, point.valid);
     const R twice_t = trace(d);
@@ -103,8 +114,11 @@ class ReturnMapping {
     point.plastic = R(0.0);
     std::array<R, kHardeningMemory> memory = part<0>(history);
     const R strain = history[6];
-    if (any(equivalent > hardening_.lower_bound(strain, memory))) {
-      Flowing<R> flow = flow_of(strain, memory, setting, equivalent);
+    R bound = hardening_.lower_bound(strain, memory);
+    if constexpr (Hardening::kCauchy) bound = bound * ratio;
+    Flowing<R> flow{};
+    if (any(equivalent > bound)) {
+      flow = flow_of(strain, memory, here, equivalent);
       if (any(flow.active)) {
         point.valid = point.valid & flow.converged;
         theta = flow.theta;
@@ -113,17 +127,20 @@ class ReturnMapping {
         const Symmetric<R> e = expm1_of(scaled(-flow.removed, d));
         const Symmetric<R> change = pull_back(c.cofactor, e + commuting_product(y, e));
         set_metric(history, select(flow.active, z + scaled(inverse * inverse, change), z));
-        finish(flow, ratio, memory);
       }
     }
     const R shear_energy = (0.25 * shear_) * (theta * theta * dd);
     std::array<R, kBulkMemory> bulk_memory = part<1>(history);
-    const Volume<R> volume{0.5 * twice_t, c.volume_change, ratio, shear_energy, point.plastic};
-    const Spherical<R> spherical = bulk_.respond(volume, bulk_memory, setting);
+    Volume<R> volume{0.5 * twice_t, c.volume_change, ratio, shear_energy, point.plastic};
+    if constexpr (Hardening::kFails) volume.failed = hardening_.failed(memory);
+    if constexpr (Bulk::kBounded) point.valid = point.valid & bulk_.admits(volume, bulk_memory);
+    const Spherical<R> spherical = bulk_.respond(volume, bulk_memory, here);
     const Symmetric<R> tau = plus_spherical(scaled(theta * shear_, d), spherical.stress);
     point.p = multiply(scaled(inverse, tau), c.cofactor);
     point.energy = spherical.energy + shear_energy;
+    point.plastic = point.plastic + spherical.released;
     point.viscous = spherical.viscous;
+    if constexpr (kHardeningMemory > 0) finish(flow, spherical.stress, ratio, memory);
     set_part<0>(history, memory);
     set_part<1>(history, bulk_memory);
   }
@@ -135,7 +152,7 @@ class ReturnMapping {
   // Radial return of a trial equivalent stress; lanes that do not yield have theta = 1.
   template <class R>
   struct Flowing {
-    MaskOf<R> active, converged;
+    MaskOf<R> active = R(0.0) > R(0.0), converged = active;
     R increment{0.0};            // dg
     R theta{1.0}, removed{0.0};  // removed = 1 - theta, without its cancellation
     R work{0.0}, yield{0.0}, slope{0.0};
@@ -158,6 +175,9 @@ class ReturnMapping {
     f.theta = select(f.active, f.yield * inverse, R(1.0));
     f.removed = select(f.active, (3 * shear_) * f.increment * inverse, R(0.0));
     f.work = select(f.active, hardening_.work(f.start, f.increment), R(0.0));
+    if constexpr (Hardening::kFails) {  // the whole stored energy of the deviator is lost
+      f.work = select(f.active & hardening_.failed(memory), 0.5 * equivalent * f.increment, f.work);
+    }
     return f;
   }
 
@@ -223,13 +243,13 @@ class ReturnMapping {
   }
 
   template <class R>
-  void finish(const Flowing<R>& f, const R& ratio, std::array<R, kHardeningMemory>& memory) const {
-    if constexpr (kHardeningMemory > 0) {
-      const auto before = memory;
-      hardening_.finish(f.start, f.increment, Flow<R>{f.work, R(0.0), f.yield, ratio}, memory);
-      for (std::size_t k = 0; k < memory.size(); ++k)
-        memory[k] = select(f.active, memory[k], before[k]);
-    }
+  void finish(const Flowing<R>& f, const R& mean_stress, const R& ratio,
+              std::array<R, kHardeningMemory>& memory) const {
+    if (!any(f.active)) return;
+    const auto before = memory;
+    hardening_.finish(f.start, f.increment, Flow<R>{f.work, mean_stress, f.yield, ratio}, memory);
+    for (std::size_t k = 0; k < memory.size(); ++k)
+      memory[k] = select(f.active, memory[k], before[k]);
   }
 
   template <int kPart, class A>

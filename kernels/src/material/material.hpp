@@ -10,6 +10,10 @@
 
 #include "core/error.hpp"
 #include "material/j2.hpp"
+#include "material/johnson_cook.hpp"
+#include "material/linear_elastic.hpp"
+#include "material/mie_gruneisen.hpp"
+#include "material/neo_hooke.hpp"
 #include "material/svk.hpp"
 
 namespace cleave {

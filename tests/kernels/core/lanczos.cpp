@@ -35,12 +35,12 @@ TEST(Lanczos, FindsTheLargestFrequencyOfAChain) {
 
 TEST(Lanczos, LeavesOutUnknownsWithoutMass) {
   const std::vector<double> mass = {1, 0, 2};
-  const auto diagonal = [](std::span<const double> u, std::span<double> out) {
-    out[0] = 3 * u[0];
-    out[1] = 100 * u[1];
+  const auto coupled = [](std::span<const double> u, std::span<double> out) {
+    out[0] = 3 * u[0] + 10 * u[1];
+    out[1] = 100 * u[1] + 10 * u[0];
     out[2] = 5 * u[2];
   };
-  EXPECT_NEAR(largest_eigenvalue(mass, diagonal, 10), 5, 1e-13);
+  EXPECT_NEAR(largest_eigenvalue(mass, coupled, 10), 5, 1e-13);
 }
 
 TEST(Lanczos, TridiagonalByHand) {

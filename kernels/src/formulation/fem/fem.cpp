@@ -43,7 +43,7 @@ void FiniteElements::setup_elements(Body& body) {
   const auto quadrature = Element::quadrature();
   const std::int64_t* given = body.given_simplices.data();
   const double density = with_law(body.material, [](const auto& law) { return law.density(); });
-  std::int32_t* listed = body.fields.integer("element_particles");
+  std::int32_t* listed = body.fields.integer("simplex_particles");
   for (std::int64_t e = 0; e < elements_; ++e) {
     const std::int64_t* nodes = given + N * e;
     for (int a = 0; a < N; ++a) {
@@ -147,7 +147,8 @@ double FiniteElements::highest_frequency_squared(const Body& body) const {
 }
 
 void FiniteElements::setup(Body& body) {
-  for (const char* group : {"fracture", "viscosity", "stabilisation"}) refuse_group(body, group);
+  for (const char* group : {"fracture", "viscosity", "stabilisation", "kernel", "hourglass"})
+    refuse_group(body, group);
   elements_ = static_cast<std::int64_t>(body.given_simplices.size()) / body.simplex_nodes;
   if (elements_ == 0) {
     throw Error(CLEAVE_BAD_ARGUMENT, text(body.label(), ": finite elements need simplices"));

@@ -107,6 +107,10 @@ TEST(CorrespondenceHorizon, CountsParticlesOnItWhereTheyWeigh) {
   };
   const auto open = bonds("spline"), closed = bonds("constant");
   EXPECT_EQ(bonds("cone"), open);
+  Model sph;
+  sph.add(kernel_case(CLEAVE_FORMULATION_tlsph, 2), m, {{"kernel", "radius", 2.0}});
+  sph.setup();
+  EXPECT_EQ(sph.counts().bonds, open);
   EXPECT_EQ(bonds("tlsph"), open);
   EXPECT_EQ(bonds("gaussian"), closed);
   EXPECT_EQ(bonds("inverse_distance"), closed);

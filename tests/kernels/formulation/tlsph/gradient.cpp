@@ -144,6 +144,32 @@ TEST(KernelSetup, SaysWhatIsMissingOrDoesNotApply) {
   EXPECT_EQ(cleave_model_setup(off), CLEAVE_OK) << last_message();
 }
 
+// Two rows of particles that come ever closer: below a millionth of the condition there is no gradient.
+TEST(KernelSetup, KnowsNeighboursThatAreNearlyInALine) {
+  SimplexMesh rows = triangular_lattice(12, 2, 1.0, 0.0, 1);
+  for (std::size_t k = 1; k < rows.X.size(); k += 3) rows.X[k] *= 1e-2;
+  Model flat;
+  flat.add(kernel_case(CLEAVE_FORMULATION_tlsph, 2), rows, radius(2.0));
+  EXPECT_EQ(cleave_model_setup(flat), CLEAVE_OK) << last_message();
+  for (std::size_t k = 1; k < rows.X.size(); k += 3) rows.X[k] *= 1e-2;
+  expect_refused(kernel_case(CLEAVE_FORMULATION_tlsph, 2), rows, radius(2.0), CLEAVE_BAD_ARGUMENT,
+                 "do not surround it well enough");
+}
+
+// Later questions that the methods have no answer to.
+TEST(KernelSetup, RefusesCutsAndStaticsWithAPenalty) {
+  Model model;
+  model.add(kernel_case(CLEAVE_FORMULATION_tlsph, 2), patch(2, 6, 1.0, 0.1, 72),
+            hourglass("conservative", 0.1));
+  model.setup();
+  const std::array<int64_t, 2> pair = {0, 1};
+  EXPECT_EQ(cleave_body_precrack(model, 0, 1, pair.data()), CLEAVE_UNSUPPORTED);
+  EXPECT_NE(last_message().find("no bonds that can be cut"), std::string::npos) << last_message();
+  model.initialise();
+  EXPECT_EQ(cleave_model_solve_static(model, 1.0, nullptr, nullptr), CLEAVE_UNSUPPORTED);
+  EXPECT_NE(last_message().find("hourglass penalty"), std::string::npos) << last_message();
+}
+
 TEST(KernelSetup, NamesMeshesItCannotUse) {
   const Case sph = kernel_case(CLEAVE_FORMULATION_tlsph, 2);
   SimplexMesh cloud = patch(2, 4, 1.0, 0.1, 73);

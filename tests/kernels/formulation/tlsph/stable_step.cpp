@@ -56,6 +56,36 @@ TEST(KernelStableStep, IsJustBelowTheLimit) {
   }
 }
 
+// The table of the theory chapter: 2/omega_max in spacings over wave speed.
+TEST(KernelStableStep, LimitsAreThoseOfTheTheoryChapter) {
+  struct Row {
+    double radius, none, projected, strongly_projected, conservative, strongly_conservative;
+  };
+  const double properties[] = {1190, 3.24e9, 0.35};
+  double speed = 0;
+  ok(cleave_material_wave_speed(CLEAVE_MATERIAL_svk, CLEAVE_PLANE_STRESS, 3, properties, &speed));
+  const auto limit = [&](double jitter, const std::vector<Setting>& settings) {
+    Model model;
+    model.add(kernel_case(CLEAVE_FORMULATION_tlsph, 2), triangular_lattice(20, 20, 1.0, jitter, 1),
+              settings);
+    model.setup();
+    return model.stable_step() * speed / 0.9;
+  };
+  for (const Row& row :
+       {Row{1.5, 1.86, 1.85, 1.80, 1.85, 1.72}, Row{2, 2.43, 2.42, 2.34, 2.41, 2.25},
+        Row{3, 3.57, 3.56, 3.41, 3.55, 3.30}, Row{4, 4.72, 4.70, 4.47, 4.69, 4.37}}) {
+    const auto k = kernel(row.radius);
+    EXPECT_NEAR(limit(0, k), row.none, 0.006);
+    EXPECT_NEAR(limit(0, k + hourglass("projected", 0.1)), row.projected, 0.006);
+    EXPECT_NEAR(limit(0, k + hourglass("projected", 1)), row.strongly_projected, 0.006);
+    EXPECT_NEAR(limit(0, k + hourglass("conservative", 0.1)), row.conservative, 0.006);
+    EXPECT_NEAR(limit(0, k + hourglass("conservative", 1)), row.strongly_conservative, 0.006);
+  }
+  EXPECT_NEAR(limit(0.3, kernel(2) + hourglass("projected", 1)), 1.94, 0.006);
+  EXPECT_NEAR(limit(0.3, kernel(3) + hourglass("projected", 1)), 2.73, 0.006);
+  EXPECT_NEAR(limit(0.3, kernel(4) + hourglass("projected", 1)), 3.44, 0.006);
+}
+
 TEST(KernelStableStep, KnowsThePenalty) {
   const SimplexMesh mesh = triangular_lattice(14, 14, 1.0, 0.3, 4);
   for (const char* form : {"projected", "conservative"}) {

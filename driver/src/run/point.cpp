@@ -1,14 +1,15 @@
-#include "command/point.hpp"
+#include "run/point.hpp"
 
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 
 #include "deck/deck.hpp"
 #include "deck/kernel_tables.hpp"
 #include "deck/nearest_name.hpp"
 #include "io/csv.hpp"
+#include "run/csv_columns.hpp"
+#include "run/run.hpp"
 #include "scene/model.hpp"
 
 namespace cleave::driver {
@@ -22,27 +23,13 @@ struct PathRow {
   std::array<double, 9> h{};  // F - I
 };
 
-double number_in(std::string_view text, const std::string& where) {
-  while (!text.empty() && (text.front() == ' ' || text.front() == '+')) text.remove_prefix(1);
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\r')) text.remove_suffix(1);
+double property_value(const std::string& word, std::string_view text) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) {
-    throw DeckError(where + ": \"" + std::string(text) + "\" is not a finite number");
+    throw DeckError("\"" + word + "\": the value is not a finite number");
   }
   return value;
-}
-
-std::vector<std::string> split(const std::string& line) {
-  std::vector<std::string> parts(1);
-  for (const char c : line) {
-    if (c == ',') {
-      parts.emplace_back();
-    } else if (c != '\r' && c != '"') {
-      parts.back() += c;
-    }
-  }
-  return parts;
 }
 
 // What a column of the path means: -1 time, 0 to 8 a component; is_f: of F, not of H.
@@ -51,8 +38,7 @@ struct PathColumn {
   bool is_f = false;
 };
 
-PathColumn column_of(std::string name, const std::string& where) {
-  name = name.substr(0, name.find(" ["));
+PathColumn column_of(const std::string& name, const std::string& where) {
   std::vector<std::string> known{"time"};
   if (name == "time") return {};
   for (const char kind : {'F', 'H'}) {
@@ -66,38 +52,23 @@ PathColumn column_of(std::string name, const std::string& where) {
 }
 
 std::vector<PathRow> read_path(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw DeckError(path + ": the path cannot be opened; give a CSV file with --path");
-  std::string line;
-  std::getline(file, line);
-  std::vector<PathColumn> columns;
-  for (const std::string& name : split(line)) columns.push_back(column_of(name, path + ":1"));
+  const CsvColumns csv = read_csv_columns(path);
   std::vector<PathRow> rows;
-  for (int n = 2; std::getline(file, line); ++n) {
-    if (line.find_first_not_of(" \r") == std::string::npos) continue;
-    const std::string where = path + ":" + std::to_string(n);
-    const auto parts = split(line);
-    if (parts.size() != columns.size()) {
-      throw DeckError(where + ": " + std::to_string(parts.size()) + " numbers for " +
-                      std::to_string(columns.size()) + " columns");
-    }
+  for (std::size_t r = 0; r < csv.rows.size(); ++r) {
     PathRow row;
-    for (std::size_t c = 0; c < columns.size(); ++c) {
-      const double value = number_in(parts[c], where);
-      const int place = columns[c].place;
-      if (place < 0) {
-        row.time = value;
+    for (std::size_t c = 0; c < csv.names.size(); ++c) {
+      const PathColumn column = column_of(csv.names[c], path + ":1");
+      if (column.place < 0) {
+        row.time = csv.rows[r][c];
       } else {
-        row.h[static_cast<std::size_t>(place)] =
-            value - (columns[c].is_f && place % 4 == 0 ? 1.0 : 0.0);
+        row.h[static_cast<std::size_t>(column.place)] =
+            csv.rows[r][c] - (column.is_f && column.place % 4 == 0 ? 1.0 : 0.0);
       }
     }
-    if (!rows.empty() && !(row.time > rows.back().time)) {
-      throw DeckError(where + ": times must increase");
-    }
+    if (!rows.empty() && !(row.time > rows.back().time))
+      throw DeckError(csv.place(r) + ": times must increase");
     rows.push_back(row);
   }
-  if (rows.empty()) throw DeckError(path + ": no rows after the header");
   return rows;
 }
 
@@ -119,7 +90,7 @@ std::vector<double> properties_of(const PointRequest& request) {
       throw DeckError("\"" + word + "\" is not NAME=VALUE of law " + request.law +
                       "; its properties: " + listed(names) + did_you_mean(name, names));
     }
-    values[k] = number_in(std::string_view(word).substr(sign + 1), "property " + name);
+    values[k] = property_value(word, std::string_view(word).substr(sign + 1));
     given[k] = 1;
   }
   for (std::size_t k = 0; k < specs.size(); ++k) {
@@ -169,7 +140,11 @@ std::vector<io::Column> columns_of(const std::string& law) {
 
 void follow_path(const PointRequest& request, const std::function<void(std::string_view)>& out) {
   std::int32_t law = 0;
-  check(cleave_table_find(CLEAVE_TABLE_MATERIAL, request.law.c_str(), &law));
+  const auto known = table_names(CLEAVE_TABLE_MATERIAL);
+  if (cleave_table_find(CLEAVE_TABLE_MATERIAL, request.law.c_str(), &law) != CLEAVE_OK) {
+    throw DeckError("law \"" + request.law + "\" is unknown; known laws: " + listed(known) +
+                    did_you_mean(request.law, known));
+  }
   const std::vector<double> properties = properties_of(request);
   const std::vector<PathRow> rows = read_path(request.path);
   std::int64_t history_count = 0;
@@ -209,7 +184,11 @@ void follow_path(const PointRequest& request, const std::function<void(std::stri
       const double time = part == parts ? to.time : from.time + s * (to.time - from.time);
       call.dt = time - last_time;
       last_time = time;
-      check(cleave_material_update(&call));
+      try {
+        check(cleave_material_update(&call));
+      } catch (const KernelError& error) {
+        throw RunError("at time " + std::to_string(time) + ": " + error.what());
+      }
       plastic_work += plastic;
       std::vector<double> record{time};
       for (std::size_t c = 0; c < 9; ++c) record.push_back(h[c] + (c % 4 == 0 ? 1.0 : 0.0));
