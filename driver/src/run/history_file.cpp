@@ -72,6 +72,7 @@ HistoryFile::HistoryFile(const Scene& scene) : units_(scene.deck().one("run").te
     add_column(std::string("momentum_") + axis, units("kg m s-1"), "momentum of all particles");
   }
   add_loads(scene);
+  add_sections(scene);
   for (const DeckGroup* probe : scene.deck().all("probe")) add_probe(scene, *probe);
   for (Index body = 0; body < scene.model().bodies(); ++body) {
     mass_.push_back(scene.model().reals(body, "mass"));
@@ -99,6 +100,34 @@ void HistoryFile::add_loads(const Scene& scene) {
   }
 }
 
+void HistoryFile::add_sections(const Scene& scene) {
+  const UnitText units(units_);
+  for (const Sections::Section& section : scene.sections().all()) {
+    for (int k = 0; k < (section.plane ? 2 : 3); ++k) {
+      add_column("section_" + section.name + "_force_" + "xyz"[k], units("N"),
+                 "force through section " + section.name);
+    }
+    for (int k = section.plane ? 2 : 0; k < 3; ++k) {
+      add_column("section_" + section.name + "_moment_" + "xyz"[k], units("N m"),
+                 "moment through section " + section.name + " about its point");
+    }
+  }
+}
+
+// Finds the simplex that holds the point of an interpolated probe.
+void HistoryFile::place_probe(const Scene& scene, const DeckGroup& group, Probe& probe) const {
+  std::vector<double> point = group.reals("point");
+  point.resize(3, 0.0);
+  probe.place.resize(4);
+  check(cleave_body_locate(scene.model().handle(), probe.body, 1, point.data(), &probe.simplex,
+                           probe.place.data()));
+  if (probe.simplex >= 0) return;
+  const Box box = bounding_box(scene.bodies()[at(probe.body)]);
+  scene.deck().fail(group, "point",
+                    point_text(point.data()) + " is not inside the body, which reaches from " +
+                        point_text(box.lower) + " to " + point_text(box.upper));
+}
+
 void HistoryFile::add_probe(const Scene& scene, const DeckGroup& group) {
   const Deck& deck = scene.deck();
   const std::string& name = group.text("name");
@@ -115,18 +144,32 @@ void HistoryFile::add_probe(const Scene& scene, const DeckGroup& group) {
   }
   const Index body = bodies.front();
   const auto field = scene.model().find_field(body, group.text("field"));
-  if (!field || field->relation != CLEAVE_RELATION_POINT) {
+  const bool interpolated = group.text("at") == "point";
+  const auto fits = [&](const cleave_field& f) {
+    return f.relation == CLEAVE_RELATION_POINT ||
+           (interpolated && f.relation == CLEAVE_RELATION_INTEGRATION_POINT);
+  };
+  if (!field || !fits(*field)) {
     std::vector<std::string> known;
     for (const cleave_field& other : scene.model().fields(body)) {
-      if (other.relation == CLEAVE_RELATION_POINT) known.push_back(other.name);
+      if (fits(other)) known.push_back(other.name);
     }
-    deck.fail(
-        group, "field",
-        in_quotes(group.text("field")) + " is not a field of particles; known: " + list(known));
+    deck.fail(group, "field",
+              in_quotes(group.text("field")) + " is not a field of " +
+                  (interpolated ? "points" : "particles") + "; known: " + list(known));
+  }
+  if (interpolated && (point.empty() || field->type != CLEAVE_REAL)) {
+    deck.fail(group, "at", "only real fields at a point are interpolated; use at = 'particle'");
   }
   const BodyGeometry& geometry = scene.bodies()[at(body)];
-  Probe probe{body, field->name, field->type == CLEAVE_INTEGER, field->components, {}, {}, {}};
-  if (!point.empty()) {
+  Probe probe;
+  probe.body = body;
+  probe.field = field->name;
+  probe.integer = field->type == CLEAVE_INTEGER;
+  probe.components = field->components;
+  if (interpolated) {
+    place_probe(scene, group, probe);
+  } else if (!point.empty()) {
     probe.particles = {nearest_particle(geometry, point)};
     probe.weights = {1.0};
   } else {
@@ -150,9 +193,10 @@ void HistoryFile::add_probe(const Scene& scene, const DeckGroup& group) {
     probe.written.push_back(component.index);
     add_column(column, units(field->units),
                std::string(field->description) +
-                   (point.empty() ? ", mean over set " + group.text("set")
-                                  : " at particle " +
-                                        number(geometry.point_ids[at(probe.particles.front())])));
+                   (interpolated    ? " at a point"
+                    : point.empty() ? ", mean over set " + group.text("set")
+                                    : " at particle " +
+                                          number(geometry.point_ids[at(probe.particles.front())])));
   }
   probes_.push_back(std::move(probe));
 }
@@ -190,6 +234,10 @@ void HistoryFile::write(Scene& scene, Index step, double time, const cleave_ener
   for (const Forces::Resultant& resultant : scene.forces().resultants()) {
     for (const int direction : resultant.directions) record_.push_back(resultant.force[direction]);
   }
+  for (const Sections::Section& section : scene.sections().resultants(model)) {
+    for (int k = 0; k < (section.plane ? 2 : 3); ++k) record_.push_back(section.force[k]);
+    for (int k = section.plane ? 2 : 0; k < 3; ++k) record_.push_back(section.moment[k]);
+  }
   for (const Probe& probe : probes_) add_probe_values(model, probe);
   table_->append(record_);
 }
@@ -208,6 +256,13 @@ void HistoryFile::add_momentum(const Model& model) {
 }
 
 void HistoryFile::add_probe_values(const Model& model, const Probe& probe) {
+  if (probe.simplex >= 0) {
+    real_.resize(at(probe.components));
+    check(cleave_field_interpolate(model.handle(), probe.body, probe.field.c_str(), 1,
+                                   &probe.simplex, probe.place.data(), real_.data()));
+    for (const Index component : probe.written) record_.push_back(real_[at(component)]);
+    return;
+  }
   const bool single = probe.particles.size() == 1;
   const Index first = single ? probe.particles.front() : 0;
   const Index last = single ? first + 1 : static_cast<Index>(mass_[at(probe.body)].size());

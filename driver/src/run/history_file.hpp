@@ -14,7 +14,7 @@ namespace cleave::driver {
 
 // Columns: step, time; the energies of cleave_energies; broken, inert, isolated, inverted;
 // momentum; for every prescribed motion its reaction_NAME_x.., for every force its force_NAME_x..;
-// probes.
+// for every section its force and moment; probes.
 class HistoryFile {
  public:
   // Throws DeckError: an unknown field or place of a probe, two columns of one name.
@@ -36,10 +36,15 @@ class HistoryFile {
     std::vector<std::int64_t> written;    // components that are written
     std::vector<std::int64_t> particles;  // one, or a set
     std::vector<double> weights;          // sum 1
+    // Interpolated: where the point lies; else -1.
+    std::int64_t simplex = -1;
+    std::vector<double> place;  // barycentric coordinates (4)
   };
   void add_column(const std::string& name, const std::string& units, const std::string& text,
                   bool is_integer = false);
   void add_loads(const Scene& scene);
+  void add_sections(const Scene& scene);
+  void place_probe(const Scene& scene, const DeckGroup& group, Probe& probe) const;
   void add_probe(const Scene& scene, const DeckGroup& group);
   void add_momentum(const Model& model);
   void add_probe_values(const Model& model, const Probe& probe);

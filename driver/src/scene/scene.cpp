@@ -28,6 +28,7 @@ Scene Scene::from_bodies(const Deck& deck, std::vector<BodyGeometry> bodies, int
   scene.bodies_ = std::make_unique<std::vector<BodyGeometry>>(std::move(bodies));
   scene.sets_ = std::make_unique<Sets>(deck, *scene.bodies_);
   scene.motions_ = std::make_unique<Motions>(deck, *scene.bodies_, *scene.sets_);
+  scene.sections_ = std::make_unique<Sections>(deck, *scene.bodies_, *scene.sets_);
   try {
     scene.model_ = std::make_unique<Model>(threads);
     add_bodies(deck, *scene.bodies_, *scene.sets_, *scene.model_);

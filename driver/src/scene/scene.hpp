@@ -10,6 +10,7 @@
 #include "scene/geometry.hpp"
 #include "scene/model.hpp"
 #include "scene/motions.hpp"
+#include "scene/sections.hpp"
 #include "scene/sets.hpp"
 
 namespace cleave::driver {
@@ -31,6 +32,8 @@ class Scene {
   const Motions& motions() const { return *motions_; }
   Forces& forces() { return *forces_; }
   const Forces& forces() const { return *forces_; }
+  Sections& sections() { return *sections_; }
+  const Sections& sections() const { return *sections_; }
 
   // Gives particles the velocities of the &initial groups.
   void put_initial_velocities();
@@ -45,6 +48,7 @@ class Scene {
   std::unique_ptr<Model> model_;
   std::unique_ptr<Motions> motions_;
   std::unique_ptr<Forces> forces_;
+  std::unique_ptr<Sections> sections_;
 };
 
 }  // namespace cleave::driver
