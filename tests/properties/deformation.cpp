@@ -66,6 +66,7 @@ TEST_P(Deformation, AffinePatchIsExactOnAnyMesh) {
 }
 
 TEST_P(Deformation, RigidMotionHasNoForce) {
+  if (!objective(GetParam())) GTEST_SKIP() << "the law is not objective";
   const SimplexMesh m = mesh();
   const double c = std::cos(1.1), s = std::sin(1.1);
   const double g[3][3] = {{c - 1, -s, 0}, {s, c - 1, 0}, {0, 0, 0}};
@@ -85,6 +86,7 @@ TEST_P(Deformation, RigidMotionHasNoForce) {
 }
 
 TEST_P(Deformation, ForceIsMinusTheEnergyGradient) {
+  if (!has_potential(GetParam())) GTEST_SKIP() << "the law has no potential of a step";
   const SimplexMesh m = mesh();
   const auto energy_of = [&](const std::vector<double>& u) {
     Model model;
@@ -131,7 +133,8 @@ TEST_P(Deformation, ForcesBalanceAndHaveNoTorque) {
       torque[k] += x[3 * i + a] * f[3 * i + b] - x[3 * i + b] * f[3 * i + a];
     }
   for (int k = 0; k < 3; ++k) {
-    EXPECT_LT(std::fabs(sum[k]), 1e-12 * largest(f));                     // measured 2e-14
+    EXPECT_LT(std::fabs(sum[k]), 1e-12 * largest(f));  // measured 2e-14
+    if (!objective(GetParam())) continue;
     EXPECT_LT(std::fabs(torque[k]), 1e-12 * largest(f) * 10 * kSpacing);  // measured 3e-14
   }
 }

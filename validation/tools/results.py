@@ -1,4 +1,5 @@
-"""Reads what a run wrote: Exodus II results, the history, the table of broken bonds.  Nothing else."""
+"""Reads what a run wrote: Exodus II results, the history, the table of broken bonds, printed tables.  Nothing else."""
+import csv
 import functools
 
 import netCDF4
@@ -71,3 +72,11 @@ def read_table(path):
     with netCDF4.Dataset(path) as file:
         file.set_auto_mask(False)
         return {name: numpy.asarray(variable[:]) for name, variable in file.variables.items()}
+
+
+def read_csv(path):
+    """Columns of a CSV that cleave printed as arrays by name; the unit after the name is cut off."""
+    with open(path, newline="", encoding="utf-8") as file:
+        rows = list(csv.reader(file))
+    names = [name.split(" [")[0] for name in rows[0]]
+    return dict(zip(names, numpy.array(rows[1:], float).T))

@@ -34,12 +34,18 @@ class Mesh:
 
 @dataclasses.dataclass(frozen=True)
 class Run:
-    """One run of a case: name, deck, what is changed in it (group.key -> value), mesh if it needs one."""
+    """One run of a case: name, deck, what is changed in it (group.key -> value), mesh if it needs one.
+
+    Without a deck: another command of cleave with its arguments, whose output is kept as NAME.csv; `inputs` are the
+    files it reads (name -> text).
+    """
 
     name: str
-    deck: str
+    deck: str = ""
     changes: dict = dataclasses.field(default_factory=dict)
     mesh: Mesh | None = None
+    command: tuple = ()
+    inputs: dict = dataclasses.field(default_factory=dict)
 
 
 class Result:
@@ -62,6 +68,11 @@ class Result:
     @functools.cached_property
     def events(self):
         return results.read_table(self.path(".events.nc"))
+
+    @functools.cached_property
+    def table(self):
+        """Output of a command without a deck: columns by name, units cut off."""
+        return results.read_csv(self.path(".csv"))
 
 
 def find_cleave(given, root):
@@ -109,21 +120,33 @@ def _wait(process, log, label):
         return process.returncode
 
 
+def _prepare(run, case_folder, folder):
+    """Writes what the run reads; returns the arguments of cleave."""
+    if run.mesh:
+        make_mesh(run.mesh, case_folder, folder)
+    for name, text in run.inputs.items():
+        (folder / name).write_text(text, encoding="utf-8")
+    if not run.deck:
+        return list(run.command)
+    text = (pathlib.Path(case_folder) / run.deck).read_text(encoding="utf-8")
+    (folder / f"{run.name}.nml").write_text(decks.vary(text, run.changes), encoding="utf-8")
+    return [f"{run.name}.nml"]
+
+
 def execute(run, case_folder, folder, cleave, threads, label=None):
     """Does the run in `folder` and returns its Result."""
     folder = pathlib.Path(folder)
     if folder.exists():
         shutil.rmtree(folder)
     folder.mkdir(parents=True)
-    if run.mesh:
-        make_mesh(run.mesh, case_folder, folder)
-    text = (pathlib.Path(case_folder) / run.deck).read_text(encoding="utf-8")
-    (folder / f"{run.name}.nml").write_text(decks.vary(text, run.changes), encoding="utf-8")
+    arguments = _prepare(run, case_folder, folder)
+    arguments += ["--threads", str(threads)] if run.deck else []
     log = folder / f"{run.name}.log"
+    output = log if run.deck else folder / f"{run.name}.csv"
     started = time.monotonic()
-    with open(log, "w", encoding="utf-8") as output:
-        process = subprocess.Popen([cleave, f"{run.name}.nml", "--threads", str(threads)], cwd=folder, stdout=output,
-                                   stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL)
+    with open(output, "w", encoding="utf-8") as out, open(log, "a", encoding="utf-8") as errors:
+        process = subprocess.Popen([cleave, *arguments], cwd=folder, stdout=out, stderr=subprocess.STDOUT if run.deck else errors,
+                                   stdin=subprocess.DEVNULL)
         status = _wait(process, log, label)
     if status != 0:
         end = "\n".join(log.read_text(errors="replace").splitlines()[-12:])

@@ -1,5 +1,6 @@
 #include "run/point.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -10,6 +11,7 @@
 #include "io/csv.hpp"
 #include "run/csv_columns.hpp"
 #include "run/run.hpp"
+#include "scene/format.hpp"
 #include "scene/model.hpp"
 
 namespace cleave::driver {
@@ -51,8 +53,22 @@ PathColumn column_of(const std::string& name, const std::string& where) {
                   did_you_mean(name, known));
 }
 
-std::vector<PathRow> read_path(const std::string& path) {
+// What a plane problem does not take from the path.
+void refuse_out_of_plane(const CsvColumns& csv, std::size_t row, const PathColumn& column, double h,
+                         const std::string& name) {
+  const bool out_of_plane = column.place % 3 == 2 || column.place / 3 == 2;
+  if (column.place < 0 || !out_of_plane || h == 0) return;
+  throw DeckError(
+      csv.place(row) + ": " + name +
+      " is not that of no deformation, but the kinematics is plane; leave the column out");
+}
+
+std::vector<PathRow> read_path(const std::string& path, bool plane) {
   const CsvColumns csv = read_csv_columns(path);
+  if (csv.rows.size() > 1 &&
+      std::find(csv.names.begin(), csv.names.end(), "time") == csv.names.end()) {
+    throw DeckError(path + ":1: there is no column time; give increasing times");
+  }
   std::vector<PathRow> rows;
   for (std::size_t r = 0; r < csv.rows.size(); ++r) {
     PathRow row;
@@ -63,6 +79,9 @@ std::vector<PathRow> read_path(const std::string& path) {
       } else {
         row.h[static_cast<std::size_t>(column.place)] =
             csv.rows[r][c] - (column.is_f && column.place % 4 == 0 ? 1.0 : 0.0);
+        if (plane)
+          refuse_out_of_plane(csv, r, column, row.h[static_cast<std::size_t>(column.place)],
+                              csv.names[c]);
       }
     }
     if (!rows.empty() && !(row.time > rows.back().time))
@@ -146,7 +165,7 @@ void follow_path(const PointRequest& request, const std::function<void(std::stri
                     did_you_mean(request.law, known));
   }
   const std::vector<double> properties = properties_of(request);
-  const std::vector<PathRow> rows = read_path(request.path);
+  const std::vector<PathRow> rows = read_path(request.path, request.kinematics != "3d");
   std::int64_t history_count = 0;
   check(cleave_material_history_count(law, &history_count));
   std::vector<double> history(static_cast<std::size_t>(history_count), 0.0);
@@ -187,7 +206,8 @@ void follow_path(const PointRequest& request, const std::function<void(std::stri
       try {
         check(cleave_material_update(&call));
       } catch (const KernelError& error) {
-        throw RunError("at time " + std::to_string(time) + ": " + error.what());
+        if (error.status != CLEAVE_BAD_JACOBIAN) throw DeckError(error.what());  // a property
+        throw RunError("at time " + number(time) + ": " + error.what());
       }
       plastic_work += plastic;
       std::vector<double> record{time};

@@ -20,6 +20,15 @@ Deck restart_deck(const CheckpointHeader& header, const std::string& deck_path) 
   return deck_path.empty() ? parse_deck(header.deck_text, header.deck_path) : read_deck(deck_path);
 }
 
+// Steps and increments are counted on from the checkpoint: their size and meaning stay.
+void keep_mode(const Deck& deck, const CheckpointHeader& header) {
+  const std::string was = parse_deck(header.deck_text, header.deck_path).one("run").text("mode");
+  const DeckGroup& run = deck.one("run");
+  if (run.text("mode") == was) return;
+  deck.fail(run, "mode",
+            "the checkpoint is of a run with mode = " + in_quotes(was) + "; a restart keeps it");
+}
+
 FileNames names_beside(const Deck& deck, const std::string& checkpoint) {
   FileNames names = FileNames::of_deck(deck);
   names.directory = std::filesystem::path(checkpoint).parent_path();
@@ -42,6 +51,7 @@ int restart_run(const std::string& checkpoint_or_directory, const std::string& d
   Loaded loaded = load_checkpoint(checkpoint_or_directory);
   const CheckpointHeader header = header_of(loaded.archive, loaded.path);
   const Deck deck = restart_deck(header, deck_path);
+  keep_mode(deck, header);
   Scene scene = Scene::from_bodies(deck, bodies_of(loaded.archive, deck, loaded.path),
                                    threads_of(deck, options));
   restore_fields(loaded.archive, header, deck_path.empty(), scene, loaded.path);
@@ -50,7 +60,7 @@ int restart_run(const std::string& checkpoint_or_directory, const std::string& d
   step.clock = {header.dt, deck_path.empty()
                                ? header.steps
                                : steps_to_end(deck.one("run").real("t_end"), header.dt)};
-  step.stable = scene.model().stable_step();
+  step.stable = scene.stable_step();
   const FileNames names = names_beside(deck, loaded.path);
   std::vector<std::string> notes;
   for (const std::string& skipped : loaded.skipped) notes.push_back("skipped " + skipped);

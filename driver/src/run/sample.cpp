@@ -40,8 +40,10 @@ Index body_index(const Scene& scene, const std::string& name) {
       return static_cast<Index>(b);
     known.push_back(scene.bodies()[b].name);
   }
-  throw DeckError("--body: " + (name.empty() ? "there are several bodies" : in_quotes(name)) +
-                  "; bodies of this checkpoint: " + list(known));
+  throw DeckError(
+      "--body: " +
+      (name.empty() ? "there are several bodies" : in_quotes(name) + " is not one of the bodies") +
+      "; bodies of this checkpoint: " + list(known));
 }
 
 struct Sampled {

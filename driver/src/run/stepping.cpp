@@ -10,12 +10,30 @@ Stepping::Stepping(const Deck& deck)
       tolerance_(deck.one("static").real("tolerance")),
       max_iterations_(deck.one("static").integer("max_iterations")),
       cut_backs_(deck.one("static").integer("cut_backs")) {
-  for (const DeckGroup* wall : deck.all("wall")) {
-    if (static_) deck.fail(*wall, "a wall needs inertia to push against; use mode = 'dynamic'");
+  if (static_) refuse_dynamics(deck);
+}
+
+// What statics would leave out without a word.
+void Stepping::refuse_dynamics(const Deck& deck) {
+  for (const DeckGroup* wall : deck.all("wall"))
+    deck.fail(*wall, "a wall needs inertia to push against; use mode = 'dynamic'");
+  for (const DeckGroup* initial : deck.all("initial"))
+    deck.fail(*initial, "there are no velocities in statics; remove it or use mode = 'dynamic'");
+  for (const DeckGroup* load : deck.all("load")) {
+    if (load->text("prescription") == "paper") {
+      deck.fail(*load, "prescription",
+                "statics prescribes displacements, not accelerations; use prescription = 'exact'");
+    }
   }
 }
 
 void Stepping::start(Scene& scene, double dt) const {
+  if (static_) {
+    scene.motions().start_at_rest(scene.model());
+    scene.forces().apply(scene.model(), 0.0);
+    check(cleave_model_initialise(scene.model().handle(), 0.0));
+    return;
+  }
   scene.put_initial_velocities();
   scene.motions().start(scene.model(), dt);
   scene.forces().apply(scene.model(), 0.0);
@@ -34,7 +52,7 @@ void Stepping::explicit_step(Scene& scene, const Clock& clock, std::int64_t step
   Model& model = scene.model();
   std::int64_t parts = 1;
   if (adapt_) {
-    const double stable = model.stable_step();
+    const double stable = scene.stable_step();
     while (parts < kMostParts && clock.dt / static_cast<double>(parts) > stable) parts *= 2;
   }
   const double dt = clock.dt / static_cast<double>(parts);

@@ -12,6 +12,7 @@ namespace cleave::driver {
 
 class Stepping {
  public:
+  // Throws DeckError: groups that have no meaning in this mode.
   explicit Stepping(const Deck& deck);
 
   bool is_static() const { return static_; }
@@ -21,6 +22,7 @@ class Stepping {
   void step(Scene& scene, const Clock& clock, std::int64_t step) const;
 
  private:
+  static void refuse_dynamics(const Deck& deck);
   void explicit_step(Scene& scene, const Clock& clock, std::int64_t step) const;
   void load_increment(Scene& scene, double from, double to) const;
 

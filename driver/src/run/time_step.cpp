@@ -53,7 +53,7 @@ TimeStep choose_time_step(const Scene& scene) {
   const double t_end = run.real("t_end");
   const double given = run.real("time_step");
   TimeStep step;
-  step.stable = scene.model().stable_step();
+  step.stable = scene.stable_step();
   step.governed_by = governing_body(scene);
   step.warnings = implausible_units(scene);
   if (run.text("mode") == "static") {

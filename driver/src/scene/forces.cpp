@@ -72,7 +72,10 @@ std::vector<int> all_directions(const std::vector<BodyGeometry>& bodies,
 
 Forces::Forces(const Deck& deck, const std::vector<BodyGeometry>& bodies, const Sets& sets,
                const Model& model)
-    : walls_(deck, bodies, sets, model), loaded_(bodies.size(), 0), moving_(bodies.size(), 0) {
+    : walls_(deck, bodies, sets, model),
+      contact_frequency_squared_(walls_.frequency_squared()),
+      loaded_(bodies.size(), 0),
+      moving_(bodies.size(), 0) {
   for (const BodyGeometry& body : bodies) geometry_.push_back(&body);
   for (const DeckGroup* group : deck.all("load")) {
     if (is_force(group->text("kind"))) add(deck, bodies, sets, model, *group);

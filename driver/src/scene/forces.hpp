@@ -24,6 +24,9 @@ class Forces {
   // Puts the forces at `time` if they differ from those put last. Does not allocate.
   void apply(Model& model, double time);
 
+  // Of the walls; see there [s-2].
+  double contact_frequency_squared() const { return contact_frequency_squared_; }
+
   struct Resultant {
     std::string load;
     std::vector<int> directions;
@@ -63,6 +66,7 @@ class Forces {
   std::vector<BodyGeometry const*> geometry_;
   std::vector<Load> loads_;
   Walls walls_;
+  double contact_frequency_squared_;
   std::vector<Resultant> resultants_;
   std::vector<char> loaded_, moving_;  // per body: has a force, one that depends on position
   std::vector<std::vector<double>> external_;  // (3, n) per loaded body

@@ -143,11 +143,20 @@ void Motions::start(Model& model, double dt) {
     acceleration_[i] = load.exact ? 2 * (next - now.displacement - dt * now.velocity) / (dt * dt)
                                   : now.acceleration;
   }
-  put_start(model);
+  put_start(model, true);
   send(model, true, true);
 }
 
-void Motions::put_start(Model& model) const {
+void Motions::start_at_rest(Model& model) {
+  for (std::size_t i = 0; i < loads_.size(); ++i) {
+    displacement_[i] = loads_[i].curve.motion(loads_[i].kind, loads_[i].value, 0.0).displacement;
+    acceleration_[i] = 0;
+  }
+  put_start(model, false);
+  send(model, true, true);
+}
+
+void Motions::put_start(Model& model, bool moving) const {
   for (std::size_t body = 0; body < bodies_.size(); ++body) {
     const BodyList& list = bodies_[body];
     if (list.particle.empty()) continue;
@@ -159,7 +168,7 @@ void Motions::put_start(Model& model) const {
       const MotionValue now = load.curve.motion(load.kind, load.value, 0.0);
       const std::size_t entry = at(3 * list.particle[k] + list.direction[k]);
       displacement[entry] = now.displacement;
-      velocity[entry] = now.velocity;
+      velocity[entry] = moving ? now.velocity : 0.0;
     }
     model.put(index, "displacement", displacement);
     model.put(index, "velocity", velocity);

@@ -23,6 +23,8 @@ class Motions {
   // Displacement, velocity and acceleration at time 0. Before time 0 every curve is continued with
   // its initial velocity.
   void start(Model& model, double dt);
+  // Displacement at time 0, without velocity and acceleration: statics.
+  void start_at_rest(Model& model);
   // Displacements at the end of the step from t to t_new, before the model advances.
   void before_advance(Model& model, double t_new);
   // Accelerations at time t = t_n, before the model updates; t_before, t_after: the steps beside
@@ -54,7 +56,7 @@ class Motions {
   };
   void add(const Deck& deck, const std::vector<BodyGeometry>& bodies, const Sets& sets,
            const DeckGroup& group, const std::string& name);
-  void put_start(Model& model) const;
+  void put_start(Model& model, bool moving) const;
   void send(Model& model, bool displacement, bool acceleration);
 
   std::vector<Load> loads_;

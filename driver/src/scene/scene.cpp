@@ -1,6 +1,7 @@
 #include "scene/scene.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "scene/body_options.hpp"
 #include "scene/format.hpp"
@@ -46,6 +47,13 @@ Scene Scene::from_deck(const Deck& deck, int threads) {
   Scene scene = from_bodies(deck, take_bodies(deck), threads);
   delete_cracks(deck, scene.bodies(), scene.sets(), scene.model());
   return scene;
+}
+
+// The largest eigenvalue of a sum is at most the sum of the largest: omega^2 = (2/dt)^2 + k/m.
+double Scene::stable_step() const {
+  const double step = model().stable_step();
+  const double half = 0.5 * step;
+  return step / std::sqrt(1 + half * half * forces().contact_frequency_squared());
 }
 
 void Scene::put_initial_velocities() {

@@ -35,6 +35,9 @@ class Scene {
   Sections& sections() { return *sections_; }
   const Sections& sections() const { return *sections_; }
 
+  // The largest stable step now [s]: that of the model, shortened by the stiffness of walls.
+  double stable_step() const;
+
   // Gives particles the velocities of the &initial groups.
   void put_initial_velocities();
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "scene/format.hpp"
 #include "scene/index.hpp"
@@ -21,11 +22,24 @@ Walls::Wall::Part part_of(const BodyGeometry& body, const Selection& selection, 
   const auto mass = model.reals(selection.body, "mass");
   const double spacing = mean_spacing(body, mass, model.property(selection.body, "rho"));
   const double frequency = model.wave_speed(selection.body) / spacing;
-  Walls::Wall::Part part{selection.body, selection.particles, {}};
+  Walls::Wall::Part part{
+      selection.body, selection.particles, {}, stiffness * frequency * frequency};
   part.stiffness.reserve(part.particle.size());
   for (const Index particle : part.particle)
-    part.stiffness.push_back(stiffness * frequency * frequency * mass[at(particle)]);
+    part.stiffness.push_back(part.frequency_squared * mass[at(particle)]);
   return part;
+}
+
+// How deep the deepest particle of a part begins in the wall.
+double deepest(const BodyGeometry& body, const Walls::Wall& wall, const Walls::Wall::Part& part) {
+  double depth = 0;
+  for (const Index particle : part.particle) {
+    double gap = wall.radius;
+    for (std::size_t c = 0; c < 3; ++c)
+      gap -= (body.X[at(3 * particle) + c] - wall.point[c]) * wall.normal[c];
+    depth = std::max(depth, gap);
+  }
+  return depth;
 }
 
 }  // namespace
@@ -57,6 +71,13 @@ Walls::Walls(const Deck& deck, const std::vector<BodyGeometry>& bodies, const Se
                   "body " + in_quotes(body.name) + " is plane; the normal has no z component");
       }
       wall.parts.push_back(part_of(body, selection, model, group->real("stiffness")));
+      const double depth = deepest(body, wall, wall.parts.back());
+      if (depth > 1e-6 * shortest_edge(body)) {  // far above the rounding of positions
+        deck.fail(*group, "point",
+                  "body " + in_quotes(body.name) + " begins " + number(depth) +
+                      " deep in the wall, which would throw it out; move the wall or the body, or "
+                      "turn the normal round");
+      }
     }
     walls_.push_back(std::move(wall));
   }
@@ -67,6 +88,15 @@ bool Walls::touches(std::int64_t body) const {
     return std::any_of(wall.parts.begin(), wall.parts.end(),
                        [&](const Wall::Part& part) { return part.body == body; });
   });
+}
+
+double Walls::frequency_squared() const {
+  std::map<std::int64_t, double> of_body;
+  for (const Wall& wall : walls_)
+    for (const Wall::Part& part : wall.parts) of_body[part.body] += part.frequency_squared;
+  double highest = 0;
+  for (const auto& [body, square] : of_body) highest = std::fmax(highest, square);
+  return highest;
 }
 
 void Walls::clear_resultants() {

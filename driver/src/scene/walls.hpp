@@ -27,12 +27,16 @@ class Walls {
       std::int64_t body;
       std::vector<std::int64_t> particle;
       std::vector<double> stiffness;  // k_i [N m-1]
+      double frequency_squared;       // k_i / m_i [s-2]
     };
     std::vector<Part> parts;
     double force[3];  // of the wall on the particles, as added last [N]
   };
   const std::vector<Wall>& all() const { return walls_; }
   bool touches(std::int64_t body) const;
+  // Square of the highest frequency that they add to that of a body: the sum of k_i/m_i of the walls of
+  // a body, the largest of the bodies [s-2].
+  double frequency_squared() const;
 
   // Adds the forces of every wall on a body at these positions.
   void add(std::int64_t body, const std::vector<double>& position, std::vector<double>& force);

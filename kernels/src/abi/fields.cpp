@@ -1,5 +1,6 @@
 // Fields of a body by name.
 #include <algorithm>
+#include <cmath>
 
 #include "abi/guard.hpp"
 #include "model/interpolation.hpp"
@@ -148,6 +149,10 @@ int32_t cleave_body_locate(cleave_model* model, int64_t body, int64_t count, con
     required(X, "X");
     required(simplex, "simplex");
     required(weight, "weight");
+    for (int64_t c = 0; c < kVector * count; ++c) {
+      if (c % kVector < b.dimension() && !std::isfinite(X[c]))
+        throw Error(CLEAVE_NOT_FINITE, text("point ", c / kVector, " is not finite"));
+    }
     const auto found = locate(b, {X, static_cast<std::size_t>(kVector * count)});
     for (std::size_t p = 0; p < found.size(); ++p) {
       simplex[p] = found[p].simplex;
@@ -176,7 +181,7 @@ int32_t cleave_field_interpolate(cleave_model* model, int64_t body, const char* 
     const Field* simplices = b.fields.find("simplex_particles");
     for (int64_t p = 0; p < count; ++p) {
       Location at{simplex[p], {}};
-      if (at.simplex >= (simplices == nullptr ? 0 : simplices->count)) {
+      if (at.simplex < -1 || at.simplex >= (simplices == nullptr ? 0 : simplices->count)) {
         throw Error(CLEAVE_BAD_RANGE, text("simplex ", at.simplex, " of point ", p,
                                            " does not exist; use what cleave_body_locate gave"));
       }

@@ -245,6 +245,7 @@ int32_t cleave_model_solve_static(cleave_model* model, double time_new,
   return guarded("cleave_model_solve_static", [&] {
     checked(model).require(Phase::stepping,
                            "statics start after cleave_model_initialise, between two steps");
+    if (report != nullptr) fill_sized(report, cleave_static_report{}, "report");
     StaticOptions wanted;
     if (options != nullptr) {
       if (options->size != static_cast<int64_t>(sizeof(cleave_static_options))) {

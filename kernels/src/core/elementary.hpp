@@ -101,8 +101,8 @@ inline R logarithm(const R& x) {
   return elementary::log_assembled(select(upper, 0.5 * m, m) - 1.0, e, e * elementary::kLn2Low);
 }
 
-// x^a for x >= 0, a > 0: exp(a ln x), so that the relative error grows to |a ln x| ulp; 0 below the
-// normal range, and the exponent is cut as that of exponential().
+// x^a for x >= 0, a > 0: exp(a ln x), so that the relative error grows to 2 |a ln x| + 4 ulp; 0 below
+// the normal range, and the exponent is cut as that of exponential().
 template <class R>
 inline R power(const R& x, double a) {
   const MaskOf<R> normal = x >= std::numeric_limits<double>::min();

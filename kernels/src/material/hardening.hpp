@@ -15,7 +15,7 @@
 //   kCauchy                      whether the yield stress is J times a function of the strain, rate and
 //                                memory, with J = setting.volume_ratio; lower_bound is without J
 //   kFails, failed(memory)       whether points may fail, and which have: they carry no deviator, no
-//                                tension, and their yield stress is 0
+//                                tension, their yield stress is 0 and work() what that releases
 #pragma once
 
 #include <algorithm>
@@ -44,6 +44,7 @@ struct Flow {
   R mean_stress;        // tr(tau)/3 [Pa]
   R equivalent_stress;  // of tau [Pa]
   R volume_ratio;       // J
+  R shear_energy;       // stored at the end of the step [J m-3]
 };
 
 // For a hardening that only depends on the strain.

@@ -48,6 +48,8 @@ class JohnsonCookHardening {
                     "temperature above T_room, by the heat of the plastic work"),
       point_history("damage_johnson_cook", 1, "1", true,
                     "Johnson-Cook damage; 1: failed, carries no deviator and no tension"),
+      point_history("failing_energy", 1, "J m-3", false,
+                    "stored by the shear when the point failed; released in the next step"),
   };
 
   JohnsonCookHardening(std::span<const double> p, double density);
@@ -72,6 +74,7 @@ class JohnsonCookHardening {
     R strain, yield, slope;
     R scale;           // J (1 - T*^m), 0 if failed
     R hardened;        // B e^n
+    R release;         // energy of the shear that failing frees now
     R temperature;     // T*
     MaskOf<R> virgin;  // e = 0, or as good as
     double rate = 0;   // 1 / (dt eps_dot_0); 0: no effect of the rate
@@ -80,6 +83,7 @@ class JohnsonCookHardening {
   Start<R> start(const R& e, const M& memory, const Setting<R>& setting) const {
     Start<R> s;
     s.strain = e;
+    s.release = memory[2];
     s.temperature = relative_temperature(memory);
     const R soft = inverse_melt_ > 0 ? 1.0 - power(s.temperature, thermal_) : R(1.0);
     s.scale = select(failed(memory), R(0.0), setting.volume_ratio * soft);
@@ -123,7 +127,7 @@ class JohnsonCookHardening {
   R work(const Start<R>& s, const R& x) const {
     const double k = exponent_ + 1;
     const R work = initial_ * x + power_rise(s, x, k, s.hardened * s.strain) / k;
-    return s.scale * (work * (1.0 + coefficient_ * log_rate(s, x)));
+    return s.scale * (work * (1.0 + coefficient_ * log_rate(s, x))) + s.release;
   }
   template <class R, class M>
   void finish(const Start<R>& s, const R& x, const Flow<R>& flow, M& memory) const {
@@ -135,6 +139,7 @@ class JohnsonCookHardening {
     const R least = select(x > 0.0, x, R(1.0));
     const R damage = memory[1] + select(whole, x / larger(strain, least), R(0.0));
     memory[1] = smaller(damage, R(1.0));
+    memory[2] = select(whole & failed(memory), flow.shear_energy, R(0.0));
   }
 
   // eps_f                                                                            [JC 4]

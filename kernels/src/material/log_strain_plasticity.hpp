@@ -140,7 +140,8 @@ class ReturnMapping {
     point.energy = spherical.energy + shear_energy;
     point.plastic = point.plastic + spherical.released;
     point.viscous = spherical.viscous;
-    if constexpr (kHardeningMemory > 0) finish(flow, spherical.stress, ratio, memory);
+    if constexpr (kHardeningMemory > 0)
+      finish(flow, Flow<R>{flow.work, spherical.stress, flow.yield, ratio, shear_energy}, memory);
     set_part<0>(history, memory);
     set_part<1>(history, bulk_memory);
   }
@@ -175,9 +176,6 @@ class ReturnMapping {
     f.theta = select(f.active, f.yield * inverse, R(1.0));
     f.removed = select(f.active, (3 * shear_) * f.increment * inverse, R(0.0));
     f.work = select(f.active, hardening_.work(f.start, f.increment), R(0.0));
-    if constexpr (Hardening::kFails) {  // the whole stored energy of the deviator is lost
-      f.work = select(f.active & hardening_.failed(memory), 0.5 * equivalent * f.increment, f.work);
-    }
     return f;
   }
 
@@ -243,11 +241,11 @@ class ReturnMapping {
   }
 
   template <class R>
-  void finish(const Flowing<R>& f, const R& mean_stress, const R& ratio,
+  void finish(const Flowing<R>& f, const Flow<R>& flow,
               std::array<R, kHardeningMemory>& memory) const {
     if (!any(f.active)) return;
     const auto before = memory;
-    hardening_.finish(f.start, f.increment, Flow<R>{f.work, mean_stress, f.yield, ratio}, memory);
+    hardening_.finish(f.start, f.increment, flow, memory);
     for (std::size_t k = 0; k < memory.size(); ++k)
       memory[k] = select(f.active, memory[k], before[k]);
   }

@@ -146,10 +146,9 @@ class NeoHooke {
       t.valid = guess > -1;
       if (!t.valid) return t;
       h.zz = guess;
-      const State s = state_of(h);
-      const double f33 = 1 + guess;
-      t.p33 = s.tau.zz / f33;
-      t.slope = mu_ + (mu_ + lambda_ * (1 - s.log_ratio)) / (f33 * f33);
+      // tau33, which unlike P33 grows with F33 for nu >= 0.
+      t.p33 = state_of(h).tau.zz;
+      t.slope = 2 * mu_ * (1 + guess) + lambda_ / (1 + guess);
       return t;
     };
     double h33 = 0;

@@ -96,7 +96,8 @@ class Grid {
  private:
   std::int64_t cell(double x, int k) const {
     const double place = std::floor((x - low_[k]) / size_);
-    return std::clamp<std::int64_t>(static_cast<std::int64_t>(place), 0, count_[k] - 1);
+    return static_cast<std::int64_t>(
+        std::clamp(place, 0.0, static_cast<double>(count_[k] - 1)));  // far points: in the double
   }
   std::size_t index(std::int64_t x, std::int64_t y, std::int64_t z) const {
     return static_cast<std::size_t>(x + count_[0] * (y + count_[1] * z));

@@ -8,15 +8,32 @@ namespace cleave {
 
 namespace {
 
-// Smallest stretch of a line element at F, at most 1; exact where one principal stretch differs from 1
-// and never too large: |F^-1|^2 = sum of 1/stretch^2.
+// Largest eigenvalue of F^-1 F^-T from the cofactors of F, in the closed form of symmetric matrices.
+template <int D>
+double largest_inverse_square(const Mat<D>& f, double det) {
+  const Mat<D> cof = cofactor(f);
+  Mat<D> b;
+  double mean = 0;
+  for (int r = 0; r < D; ++r)
+    for (int c = 0; c < D; ++c)
+      for (int k = 0; k < D; ++k) b(r, c) += cof(r, k) / det * (cof(c, k) / det);
+  for (int r = 0; r < D; ++r) mean += b(r, r) / D;
+  for (int r = 0; r < D; ++r) b(r, r) -= mean;
+  const double spread = std::sqrt(contract(b, b) / (D * (D - 1)));
+  if constexpr (D == 2) return mean + spread;
+  if (!(spread > 0)) return mean;
+  for (int r = 0; r < D; ++r)
+    for (int c = 0; c < D; ++c) b(r, c) /= spread;
+  const double cosine = std::fmax(-1.0, std::fmin(1.0, 0.5 * determinant(b)));
+  return mean + 2 * spread * std::cos(std::acos(cosine) / 3);
+}
+
+// Smallest stretch of a line element at F, at most 1.
 template <int D>
 double shortest_stretch(const Mat<D>& f) {
   const double det = determinant(f);
   if (!(det > 0)) return 1.0;  // turned inside out: no step would help
-  const Mat<D> cof = cofactor(f);
-  const double inverse_square = contract(cof, cof) / (det * det);
-  return std::fmin(1.0, 1 / std::sqrt(std::fmax(1.0, inverse_square - (D - 1))));
+  return 1 / std::sqrt(std::fmax(1.0, largest_inverse_square(f, det)));
 }
 
 // Speed of sound over that of the undeformed material, for laws that stiffen.

@@ -44,7 +44,7 @@ class CommandLine(unittest.TestCase):
 
     def test_help_names_every_command(self):
         text = self.printed("--help")
-        commands = ["check", "restart", "keys", "tables", "info", "export", "parse"]
+        commands = ["check", "restart", "keys", "tables", "info", "export", "point", "sample", "parse"]
         for word in commands + ["--threads", "--quiet"]:
             self.assertIn(word, text)
 
@@ -66,7 +66,8 @@ class CommandLine(unittest.TestCase):
 
     def test_missing_operand(self):
         for command, operand in [("check", "DECK"), ("restart", "CHECKPOINT"), ("info", "FILE"),
-                                 ("export", "RESULT"), ("parse", "FILE"), ("tables", "TABLE")]:
+                                 ("export", "RESULT"), ("point", "LAW"),
+                                 ("sample", "CHECKPOINT"), ("parse", "FILE"), ("tables", "TABLE")]:
             self.assertIn(f"{operand} is required", self.refused(command))
 
     def test_deck_before_a_command(self):

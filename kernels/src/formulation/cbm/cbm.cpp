@@ -53,6 +53,11 @@ double stiffness_length(const Network& network, std::int64_t particles) {
 void ContinuumBondMethod::setup(Body& body) {
   refuse_group(body, "kernel", "it belongs to formulations tlsph and nosb");
   refuse_group(body, "hourglass", "it belongs to tlsph and nosb; here it is group stabilisation");
+  if (body.simplex_nodes != body.dimension() + 1) {
+    throw Error(CLEAVE_UNSUPPORTED,
+                text(body.label(), ": cbm takes simplices of ", body.dimension() + 1,
+                     " particles, not of ", body.simplex_nodes, "; use a mesh of first order"));
+  }
   network_.build(body);
   const double density = with_law(body.material, [](const auto& law) { return law.density(); });
   for (std::int64_t i = 0; i < body.particles; ++i)

@@ -53,7 +53,9 @@ void Fracture::setup(const Body& body, const Network& network) {
   for (auto* list : {&killed_volume_, &release_, &bond_release_}) {
     list->reserve(static_cast<std::size_t>(std::min(network.bonds, kReserve)));
   }
-  cuts_.reserve(static_cast<std::size_t>(std::min(network.bonds, kReserve)));
+  // A bond and a simplex of it each: a body without strength may break all at once.
+  const std::int64_t edges = body.dimension() == 2 ? 3 : 6;
+  cuts_.reserve(static_cast<std::size_t>(std::min(edges * network.simplices, kReserve)));
 }
 
 // eps_crit given, or sqrt(2 G_f / (E l)).                                                [CBM 32]
@@ -80,6 +82,11 @@ void Fracture::set_critical_strains(const Body& body, const Network& network) co
   }
   const double youngs =
       with_law(body.material, [](const auto& law) { return law.youngs_modulus(); });
+  if (active_ && Gf > 0 && !(youngs > 0)) {
+    throw Error(CLEAVE_UNSUPPORTED,
+                text("group fracture of ", body.label(), " has Gf, but law ", body.law->name,
+                     " has no Young's modulus; give critical_strain"));
+  }
   const std::vector<char> shield = protection(body);
   for (std::int64_t b = 0; b < network.bonds; ++b) {
     const char common = shield[static_cast<std::size_t>(network.ends[2 * b])] &

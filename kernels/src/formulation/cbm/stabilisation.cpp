@@ -36,6 +36,13 @@ void Stabilisation::setup(const Body& body, const Network& network) {
                 text(body.label(), ": stabilisation form 'blend' needs a law without history, not ",
                      body.law->name, "; use 'deviation'"));
   }
+  if (form_ == StabilisationForm::deviation && !(shear_modulus_ > 0)) {
+    throw Error(CLEAVE_UNSUPPORTED,
+                text(body.label(),
+                     ": stabilisation form 'deviation' is scaled by the shear modulus, "
+                     "which is 0 for law ",
+                     body.law->name, "; leave the group stabilisation out"));
+  }
   if (active()) {
     simplex_stress_.assign(static_cast<std::size_t>(kTensor * network.simplices), 0.0);
     bond_stress_.assign(static_cast<std::size_t>(kTensor * body.particles), 0.0);

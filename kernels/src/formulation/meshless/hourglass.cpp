@@ -62,6 +62,13 @@ void Hourglass::setup(Body& body, const KernelGradient& gradient, const Kernel& 
   work_ = body.fields.real("hourglass_work");
   stiffness_.clear();
   if (!active()) return;
+  if (!(half_modulus_ > 0)) {
+    throw Error(CLEAVE_UNSUPPORTED,
+                text(body.label(),
+                     ": the hourglass penalty is scaled by Young's modulus, which is 0 "
+                     "for law ",
+                     body.law->name, "; leave the group hourglass out"));
+  }
   if (form_ == HourglassForm::conservative && kernel.gradient == GradientForm::plain) {
     throw Error(CLEAVE_UNSUPPORTED,
                 text(body.label(),
