@@ -149,7 +149,7 @@ TEST_F(LinearSimplicesExample, CarriesTheMassOfTheStripAndSaysWhatItCannotDo) {
   double mass = 0, area = 0;
   for (int i = 0; i < kColumns * kRows; ++i) mass += body_->point.mass[i];
   for (std::size_t s = 0; s < simplices_.size(); s += 3)
-    area += cbm::simplex_geometry<2>(positions_.data(), simplices_.data() + s).volume;
+    area += simplex_geometry<2>(positions_.data(), simplices_.data() + s).volume;
   EXPECT_NEAR(mass / (kSvk[0] * area), 1.0, 1e-14);  // measured 1e-16
   EXPECT_GT(body_->formulation->stable_step(*body_), 0.0);
   EXPECT_THROW(body_->formulation->precrack(*body_, {}), Error);

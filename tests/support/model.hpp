@@ -270,7 +270,7 @@ inline bool offered(int32_t material, int32_t kinematics) {
 
 // Every law of the table with the first formulation, and every formulation with an elastic law and one
 // that remembers, in every plane condition. Laws and formulations meet in one place only
-// (formulation/stress_points.cpp), so the full product would tell nothing more.
+// (formulation/common/stress_points.cpp), so the full product would tell nothing more.
 inline std::vector<Case> all_cases() {
   std::vector<Case> out;
   int64_t formulations = 0, materials = 0;

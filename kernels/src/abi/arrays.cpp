@@ -6,11 +6,10 @@
 #include "core/gradient_operator.hpp"
 #include "core/ramp.hpp"
 #include "formulation/cbm/bonds.hpp"
-#include "formulation/cbm/viscosity.hpp"
+#include "formulation/common/viscosity.hpp"
 
 using namespace cleave;
 using namespace cleave::abi;
-using cleave::cbm::BondRate;
 
 namespace {
 
@@ -29,7 +28,7 @@ int32_t cleave_cbm_count_bonds(int32_t dimension, int64_t particles, int64_t sim
     if (simplex_count > 0) required(simplices, "simplices");
     required(row_begin, "row_begin");
     const auto incidence =
-        cbm::make_incidence(particles, simplex_count, simplices, dimension + 1, dimension + 1);
+        make_incidence(particles, simplex_count, simplices, dimension + 1, dimension + 1);
     std::vector<int64_t> found;
     row_begin[0] = 0;
     for (int64_t i = 0; i < particles; ++i) {
@@ -55,9 +54,9 @@ int32_t cleave_cbm_bonds(int32_t dimension, int64_t particles, const double* X,
     if (simplex_count > 0) required(simplices, "simplices");
     with_dimension(dimension, [&](auto d) {
       constexpr int D = d;
-      const auto incidence = cbm::make_incidence(particles, simplex_count, simplices, D + 1, D + 1);
+      const auto incidence = make_incidence(particles, simplex_count, simplices, D + 1, D + 1);
       for (int64_t s = 0; s < simplex_count; ++s) {
-        if (cbm::is_degenerate<D>(X, simplices + (D + 1) * s)) {
+        if (is_degenerate<D>(X, simplices + (D + 1) * s)) {
           throw Error(CLEAVE_BAD_SIMPLEX,
                       text("simplex ", s, " is degenerate; repair the mesh there"));
         }
@@ -125,9 +124,8 @@ int32_t cleave_bond_viscosity(int32_t dimension, int64_t first, int64_t last,
     required(J, "J");
     required(f, "f");
     const BondRate<int64_t> rate{coefficient / length, length, nullptr, nullptr};
-    with_dimension(dimension, [&](auto d) {
-      cbm::viscous_force_frozen<d>(g, rate, w, x, v, J, first, last, f);
-    });
+    with_dimension(dimension,
+                   [&](auto d) { viscous_force_frozen<d>(g, rate, w, x, v, J, first, last, f); });
   });
 }
 

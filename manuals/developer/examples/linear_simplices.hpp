@@ -7,7 +7,7 @@
 
 #include "core/blocks.hpp"
 #include "core/error.hpp"
-#include "formulation/cbm/simplices.hpp"
+#include "formulation/common/simplices.hpp"
 #include "model/body.hpp"
 #include "model/formulation.hpp"
 
@@ -27,7 +27,7 @@ class LinearSimplices final : public Formulation {
     corners_.assign(body.given_simplices.begin(), body.given_simplices.end());
     const int corners = body.dimension() + 1;
     const auto count = static_cast<std::int64_t>(corners_.size()) / corners;
-    incidence_ = cbm::make_incidence(body.particles, count, corners_.data(), corners, corners);
+    incidence_ = make_incidence(body.particles, count, corners_.data(), corners, corners);
     stress_.assign(static_cast<std::size_t>(kTensor * count), 0.0);
     energy_.assign(static_cast<std::size_t>(count), 0.0);
     const double density = with_law(body.material, [](const auto& law) { return law.density(); });
@@ -90,8 +90,8 @@ class LinearSimplices final : public Formulation {
     return corners_[static_cast<std::size_t>(corners * s + a)];
   }
   template <int D>
-  cbm::SimplexGeometry<D> geometry(const Body& body, std::int64_t s) const {
-    return cbm::simplex_geometry<D>(body.point.X, corners_.data() + (D + 1) * s);
+  SimplexGeometry<D> geometry(const Body& body, std::int64_t s) const {
+    return simplex_geometry<D>(body.point.X, corners_.data() + (D + 1) * s);
   }
   template <int D>
   double steepest_gradient(const Body& body, std::int64_t s) const {
@@ -143,7 +143,7 @@ class LinearSimplices final : public Formulation {
   }
 
   std::vector<std::int64_t> corners_;
-  cbm::Incidence incidence_;
+  Incidence incidence_;
   std::vector<double> stress_, energy_;  // (9,m) [Pa], (m) [J m-3]
 };
 

@@ -74,6 +74,8 @@ TEST_P(Static, AffineOutlineGivesAffineInterior) {
 }
 
 TEST_P(Static, FailedIncrementLeavesTheStateAsItWas) {
+  if (GetParam().material == CLEAVE_MATERIAL_linear_elastic)
+    GTEST_SKIP() << "one iteration is enough";
   const SimplexMesh m = mesh();
   Model model;
   model.add(GetParam(), m);
@@ -132,6 +134,7 @@ TEST_P(Static, WorkOfAnIncrementIsTheStoredEnergy) {
 std::vector<Case> solvable() {
   std::vector<Case> out;
   for (const Case& c : all_cases()) {
+    if (c.material == CLEAVE_MATERIAL_mie_gruneisen) continue;  // a fluid has many equilibria
     if (c.formulation == CLEAVE_FORMULATION_cbm || c.formulation == CLEAVE_FORMULATION_fem)
       out.push_back(c);
   }

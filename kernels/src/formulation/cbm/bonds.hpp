@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "formulation/cbm/simplices.hpp"
+#include "formulation/common/simplices.hpp"
 
 namespace cleave::cbm {
 

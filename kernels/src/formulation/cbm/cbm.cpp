@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/gradient_operator.hpp"
-#include "formulation/unused_groups.hpp"
+#include "formulation/common/unused_groups.hpp"
 
 namespace cleave::cbm {
 

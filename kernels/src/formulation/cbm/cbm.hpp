@@ -7,8 +7,8 @@
 #include "formulation/cbm/fracture.hpp"
 #include "formulation/cbm/network.hpp"
 #include "formulation/cbm/stabilisation.hpp"
-#include "formulation/cbm/viscosity.hpp"
-#include "formulation/stress_points.hpp"
+#include "formulation/common/stress_points.hpp"
+#include "formulation/common/viscosity.hpp"
 
 namespace cleave::cbm {
 

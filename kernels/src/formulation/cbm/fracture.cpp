@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "formulation/stress_points.hpp"
+#include "formulation/common/stress_points.hpp"
 
 namespace cleave::cbm {
 

@@ -1,16 +1,15 @@
-// Options of the Continuum Bond Method that a body can set: fracture, artificial viscosity,
-// hourglass stabilisation. A group none of whose parameters was set is off.
+// Options of the Continuum Bond Method that a body can set besides viscosity: fracture, hourglass
+// stabilisation. A group none of whose parameters was set is off.
 #pragma once
 
 #include <array>
 
 #include "core/parameter.hpp"
+#include "formulation/common/viscosity.hpp"
 
 namespace cleave::cbm {
 
 enum class Criterion { none, bond_strain };
-enum class LengthMode { constant, local };
-enum class ViscosityForm { none, frozen, central, paper };
 enum class StabilisationForm { none, deviation, blend };
 
 inline constexpr std::array kFractureParameters = {
@@ -29,20 +28,6 @@ inline constexpr std::array kFractureParameters = {
                      "reference length"),
     real_parameter("length", "m", kNotNegative, 0.0,
                    "l of length_mode constant: the spacing of the refined region", "[CBM 32]"),
-};
-
-inline constexpr std::array kViscosityParameters = {
-    choice_parameter("form", "none|frozen|central|paper", "frozen",
-                     "frozen: central force with reference bond weights, dissipates for any "
-                     "motion; central: central force with deformed bond vectors, clipped; paper: "
-                     "the published form with corrected sign, conserves no angular momentum",
-                     "[CBM 23]"),
-    real_parameter("beta", "1", kNotNegative, 0.5, "coefficient", "[CBM 21]"),
-    choice_parameter("length_mode", "constant|local", "constant",
-                     "l in the viscous pressure: one length for all bonds, or each bond's own "
-                     "reference length"),
-    real_parameter("length", "m", kNotNegative, 0.0,
-                   "l of length_mode constant: the spacing of the refined region", "[CBM 21]"),
 };
 
 inline constexpr std::array kStabilisationParameters = {

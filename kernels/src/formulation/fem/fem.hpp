@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "formulation/stress_points.hpp"
+#include "formulation/common/stress_points.hpp"
 #include "model/formulation.hpp"
 
 namespace cleave::fem {

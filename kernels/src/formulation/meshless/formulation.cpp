@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "formulation/common/unused_groups.hpp"
 #include "formulation/meshless/stable_step.hpp"
 #include "formulation/tlsph/kernel.hpp"
-#include "formulation/unused_groups.hpp"
 
 namespace cleave::meshless {
-
-using cbm::ViscosityForm;
 
 double KernelMethod::kernel_radius(const Body& body) {
   const ParameterSet& options = body.group("kernel");
@@ -51,7 +49,7 @@ std::vector<double> KernelMethod::setup_viscosity(const Body& body) {
   bond_rate_ = {};
   bond_weight_.clear();
   if (viscosity_ == ViscosityForm::none) return {};
-  if (options.choice("length_mode") == static_cast<int>(cbm::LengthMode::local)) {
+  if (options.choice("length_mode") == static_cast<int>(LengthMode::local)) {
     throw Error(CLEAVE_UNSUPPORTED,
                 text("group viscosity of ", body.label(),
                      ": length_mode 'local' takes the length "
@@ -92,16 +90,16 @@ void KernelMethod::viscous_force(Body& body, std::int64_t first, std::int64_t la
     case ViscosityForm::none:
       break;
     case ViscosityForm::frozen:
-      cbm::viscous_force_frozen<D>(operator_, bond_rate_, bond_weight_.data(), pt.x, pt.v, pt.ratio,
-                                   first, last, pt.viscous);
+      viscous_force_frozen<D>(operator_, bond_rate_, bond_weight_.data(), pt.x, pt.v, pt.ratio,
+                              first, last, pt.viscous);
       break;
     case ViscosityForm::central:
-      cbm::viscous_force_deformed<D, true>(operator_, bond_rate_, pt.x, pt.v, pt.h, pt.ratio, first,
-                                           last, pt.viscous);
+      viscous_force_deformed<D, true>(operator_, bond_rate_, pt.x, pt.v, pt.h, pt.ratio, first,
+                                      last, pt.viscous);
       break;
     case ViscosityForm::paper:
-      cbm::viscous_force_deformed<D, false>(operator_, bond_rate_, pt.x, pt.v, pt.h, pt.ratio,
-                                            first, last, pt.viscous);
+      viscous_force_deformed<D, false>(operator_, bond_rate_, pt.x, pt.v, pt.h, pt.ratio, first,
+                                       last, pt.viscous);
       break;
   }
 }

@@ -7,10 +7,10 @@
 
 #include "core/blocks.hpp"
 #include "formulation/cbm/parameters.hpp"
-#include "formulation/cbm/viscosity.hpp"
+#include "formulation/common/stress_points.hpp"
+#include "formulation/common/viscosity.hpp"
 #include "formulation/meshless/hourglass.hpp"
 #include "formulation/meshless/kernel_gradient.hpp"
-#include "formulation/stress_points.hpp"
 
 namespace cleave::meshless {
 
@@ -52,8 +52,8 @@ class KernelMethod : public Formulation {
   BodyOperator operator_;
   StressPoints points_;
   Hourglass hourglass_;
-  cbm::ViscosityForm viscosity_ = cbm::ViscosityForm::none;
-  cbm::BondRate<std::int32_t> bond_rate_;
+  ViscosityForm viscosity_ = ViscosityForm::none;
+  BondRate<std::int32_t> bond_rate_;
   std::vector<double> bond_weight_;  // (h) of the frozen viscosity [m3]
   double stable_step_ = 0;           // [s] of the undeformed body
   double dt_ = 0;                    // of the step being done

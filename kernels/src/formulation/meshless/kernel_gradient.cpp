@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/blocks.hpp"
-#include "formulation/cbm/simplices.hpp"
+#include "formulation/common/simplices.hpp"
 
 namespace cleave::meshless {
 
@@ -24,7 +24,7 @@ void add_shares(const double* X, const std::int32_t* corners, std::int64_t simpl
                 double* volume) {
   for (std::int64_t s = 0; s < simplices; ++s) {
     const std::int32_t* c = corners + kStride * s;
-    const double share = cbm::simplex_geometry<D>(X, c).volume / (D + 1);
+    const double share = simplex_geometry<D>(X, c).volume / (D + 1);
     for (int a = 0; a <= D; ++a) volume[c[a]] += share;
   }
 }

@@ -55,11 +55,11 @@ class LinearBody {
   }
 
   // The frozen form; the others are the same at rest, the published one nearly.
-  void damping(const cbm::BondRate<std::int32_t>& rate, const std::vector<double>& weight,
+  void damping(const BondRate<std::int32_t>& rate, const std::vector<double>& weight,
                std::span<const double> v, std::span<double> out) {
     std::fill(out.begin(), out.end(), 0.0);
-    cbm::viscous_force_frozen<D>(g_, rate, weight.data(), body_.point.X, v.data(),
-                                 undeformed_.data(), 0, body_.particles, out.data());
+    viscous_force_frozen<D>(g_, rate, weight.data(), body_.point.X, v.data(), undeformed_.data(), 0,
+                            body_.particles, out.data());
     over_minus_mass(out);
   }
 
@@ -90,7 +90,7 @@ class LinearBody {
 
 template <int D>
 LargestRates rates_in(const Body& body, const BodyOperator& g, const Hourglass& hourglass,
-                      const cbm::BondRate<std::int32_t>& rate, const std::vector<double>& weight) {
+                      const BondRate<std::int32_t>& rate, const std::vector<double>& weight) {
   LinearBody<D> linear(body, g, hourglass);
   const std::vector<double> mass = linear.masses();
   LargestRates rates;
@@ -106,7 +106,7 @@ LargestRates rates_in(const Body& body, const BodyOperator& g, const Hourglass& 
 }  // namespace
 
 LargestRates largest_rates(const Body& body, const BodyOperator& g, const Hourglass& hourglass,
-                           const cbm::BondRate<std::int32_t>& rate,
+                           const BondRate<std::int32_t>& rate,
                            const std::vector<double>& bond_weight) {
   return body.dimension() == 2 ? rates_in<2>(body, g, hourglass, rate, bond_weight)
                                : rates_in<3>(body, g, hourglass, rate, bond_weight);

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "formulation/cbm/viscosity.hpp"
+#include "formulation/common/viscosity.hpp"
 #include "formulation/meshless/hourglass.hpp"
 
 namespace cleave::meshless {
@@ -17,7 +17,7 @@ struct LargestRates {
 
 // bond_weight: zeta_ip . X_ip of every half-bond for the viscosity, or empty: none
 LargestRates largest_rates(const Body& body, const BodyOperator& g, const Hourglass& hourglass,
-                           const cbm::BondRate<std::int32_t>& rate,
+                           const BondRate<std::int32_t>& rate,
                            const std::vector<double>& bond_weight);
 
 // Largest step with its safety [s].

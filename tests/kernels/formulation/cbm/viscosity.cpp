@@ -1,5 +1,5 @@
 // Artificial viscosity in its three forms, pair by pair and as the model adds it up.
-#include "formulation/cbm/viscosity.hpp"
+#include "formulation/common/viscosity.hpp"
 
 #include <gtest/gtest.h>
 
@@ -46,19 +46,19 @@ struct State {
     const GradientOperator<std::int64_t, std::int64_t> g{rows.data(), bonds.neighbour.data(),
                                                          bonds.reverse.data(), bonds.zeta.data(),
                                                          bonds.volume.data()};
-    const cbm::BondRate<std::int64_t> rate{kCoefficient, kLength, nullptr, nullptr};
+    const BondRate<std::int64_t> rate{kCoefficient, kLength, nullptr, nullptr};
     switch (form) {
       case Form::frozen:
-        cbm::viscous_force_frozen<D>(g, rate, w.data(), x.data(), v.data(), J.data(), first, last,
-                                     f.data());
+        viscous_force_frozen<D>(g, rate, w.data(), x.data(), v.data(), J.data(), first, last,
+                                f.data());
         break;
       case Form::central:
-        cbm::viscous_force_deformed<D, true>(g, rate, x.data(), v.data(), h.data(), J.data(), first,
-                                             last, f.data());
+        viscous_force_deformed<D, true>(g, rate, x.data(), v.data(), h.data(), J.data(), first,
+                                        last, f.data());
         break;
       case Form::paper:
-        cbm::viscous_force_deformed<D, false>(g, rate, x.data(), v.data(), h.data(), J.data(),
-                                              first, last, f.data());
+        viscous_force_deformed<D, false>(g, rate, x.data(), v.data(), h.data(), J.data(), first,
+                                         last, f.data());
         break;
     }
   }

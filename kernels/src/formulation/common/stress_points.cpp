@@ -1,4 +1,4 @@
-#include "formulation/stress_points.hpp"
+#include "formulation/common/stress_points.hpp"
 
 #include "core/error.hpp"
 #include "material/stress.hpp"

@@ -6,12 +6,32 @@
 // every bond that still carries a simplex, never across an open crack.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 
 #include "core/gradient_operator.hpp"
+#include "core/parameter.hpp"
 
-namespace cleave::cbm {
+namespace cleave {
+
+// Which l a bond uses, also in the critical strain.
+enum class LengthMode { constant, local };
+enum class ViscosityForm { none, frozen, central, paper };
+
+inline constexpr std::array kViscosityParameters = {
+    choice_parameter("form", "none|frozen|central|paper", "frozen",
+                     "frozen: central force with reference bond weights, dissipates for any "
+                     "motion; central: central force with deformed bond vectors, clipped; paper: "
+                     "the published form with corrected sign, conserves no angular momentum",
+                     "[CBM 23]"),
+    real_parameter("beta", "1", kNotNegative, 0.5, "coefficient", "[CBM 21]"),
+    choice_parameter("length_mode", "constant|local", "constant",
+                     "l in the viscous pressure: one length for all bonds, or each bond's own "
+                     "reference length"),
+    real_parameter("length", "m", kNotNegative, 0.0,
+                   "l of length_mode constant: the spacing of the refined region", "[CBM 21]"),
+};
 
 // Coefficient beta rho0 c0 [Pa s m-1] and the length l of a bond.
 template <class Index>
@@ -91,4 +111,4 @@ void viscous_force_deformed(const GradientOperator<Index, Offset>& g, const Bond
   }
 }
 
-}  // namespace cleave::cbm
+}  // namespace cleave

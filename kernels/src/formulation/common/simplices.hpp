@@ -7,7 +7,7 @@
 #include "core/error.hpp"
 #include "core/tensor.hpp"
 
-namespace cleave::cbm {
+namespace cleave {
 
 template <int D>
 struct SimplexGeometry {
@@ -94,4 +94,4 @@ Incidence make_incidence(std::int64_t particles, std::int64_t count, const Index
   return in;
 }
 
-}  // namespace cleave::cbm
+}  // namespace cleave
