@@ -42,9 +42,12 @@ def check(tree):
 
 def _parameters(tree):
     """Names of all material properties and formulation parameters, lower case, and where they are declared."""
-    declared = tree.find(r'\b\w+_parameter\(\s*"(\w+)"',
-                         tree.paths("kernels/src/material/*.hpp", "kernels/src/formulation/*.hpp"))
-    return {match.group(1).lower(): f"{path}:{line}" for path, line, match in declared}
+    declared = {}
+    for path in tree.paths("kernels/src/material/*.hpp", "kernels/src/formulation/*.hpp"):
+        text = tree.text(path)
+        for match in re.finditer(r'\b\w+_parameter\(\s*"(\w+)"', text):
+            declared[match.group(1).lower()] = f"{path}:{text.count(chr(10), 0, match.start()) + 1}"
+    return declared
 
 
 def _assignments(text):

@@ -183,7 +183,7 @@ class Keys(GuardTest):
             'CLEAVE_KEY(run, title, text, "", "", "", "a line", "0.1")\n'
             'CLEAVE_PARAMETER_KEY(body, text, "", "", "", "body", "0.1")\n',
         "kernels/src/tables/groups.def": 'CLEAVE_GROUP(fracture, kSpecs, "Breaking", "")\n',
-        "kernels/src/material/law.hpp": 'required_parameter("E", "Pa")\n',
+        "kernels/src/material/law.hpp": 'required_parameter(\n    "E", "Pa")\n',
         "validation/a/a.nml": "&run title = 'x = /', t_end = 1 /\n&material\n  E(1) = 3 ! rho = 2\n/\n"
                               "&fracture body = 'b' /\n",
     }

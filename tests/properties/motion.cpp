@@ -150,6 +150,7 @@ TEST_P(Motion, StepDoesNotAllocate) {
   for (int n = 1; n < 150; ++n) {
     cleave_model_advance(free.model, dt, (n + 1) * dt);
     cleave_model_update(free.model);
+    cleave_body_clear_events(free.model, 0);  // the list grows until somebody reads it
   }
   const long after = allocations();
   if (breaks(GetParam())) {

@@ -3,10 +3,12 @@
 The program follows a path with `cleave point`.  What it is compared with is computed here and in tools/rates.py with
 numpy: the return mapping with an iterative eigen-solver and bisection, and the rate equations integrated to high order.
 """
+import functools
 import math
 
 import matplotlib.pyplot as plt
 import numpy
+from matplotlib.ticker import NullLocator
 from tools import picture, rates
 from tools.simulation import Run
 
@@ -49,14 +51,14 @@ DIGITS = (5e-7, 5e-3, 5e-3, 5e-7)                                        # half 
 TENSION_STEP, TENSION_END = 1e-4, 0.2
 
 
-def spun():
-    """Tension by 8 % while the body turns once."""
-    corners = []
-    for part in numpy.linspace(0, 1, 25):
+def winding():
+    """Stretch and shear in 300 steps, and the same while the body turns once."""
+    straight, turned = [], []
+    for part in numpy.linspace(0, 1, 301):
         c, s = math.cos(2 * math.pi * part), math.sin(2 * math.pi * part)
-        turn = numpy.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
-        corners.append(turn @ deformation(xx=-0.03 * part, yy=0.08 * part, zz=-0.04 * part))
-    return corners
+        straight.append(deformation(xx=-0.03 * part, yy=0.08 * part, xy=0.05 * math.sin(9 * part), zz=-0.04 * part))
+        turned.append(numpy.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]) @ straight[-1])
+    return straight, turned
 
 
 PATHS = {
@@ -64,7 +66,6 @@ PATHS = {
                 deformation(xy=-0.1, yy=0.02, zy=0.06)],
     "cycles": [I] + [deformation(xy=0.03 * sign, yy=0.01 * sign * sign) for sign in (1, -1, 1, -1)],
     "large": [I, deformation(xx=0.6, xy=0.5, yy=-0.3, zz=-0.1), deformation(xx=2.0, xy=0.8, yz=-0.3, yy=-0.4, zz=-0.4)],
-    "spun": spun(),
 }
 SUBSTEPS = (250, 500, 1000, 2000)
 PROPORTIONAL = deformation(xx=0.5)
@@ -90,6 +91,7 @@ def runs(mode):
     made = [point(f"single-{name}", [I, F], 1) for name, (F, _, _) in SINGLE.items()]
     made += [point("chain", chain(), 1), point("tension", [F for F, _, _ in tension()], 1)]
     made += [point("proportional", [I, PROPORTIONAL], 7)]
+    made += [point(name, rows, 1) for name, rows in zip(("straight", "turned"), winding())]
     made += [point(f"{name}-{steps}", corners, steps) for name, corners in PATHS.items() for steps in SUBSTEPS]
     return made
 
@@ -104,14 +106,14 @@ def returned(F, Cpi, e):
     trial = 2 * LAW.G * rates.ROOT * numpy.linalg.norm(deviator)
     if trial <= LAW.strength(e):
         return Cpi, e
-    low, high = 0.0, trial / (3 * LAW.G)
-    while low < 0.5 * (low + high) < high:
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if trial - 3 * LAW.G * middle > LAW.strength(e + middle) else (low, middle)
-    kept = 1 - 3 * LAW.G * high / trial
+    flow, last = 0.0, -1.0
+    while flow > last:                                   # Newton rises to the root of a convex, falling function
+        last = flow
+        flow += (trial - 3 * LAW.G * flow - LAW.strength(e + flow)) / (3 * LAW.G + LAW.hardening(e + flow))
+    kept = 1 - 3 * LAW.G * flow / trial
     values, vectors = numpy.linalg.eigh(volume / 3 * I + kept * deviator)
     inverse = numpy.linalg.inv(F)
-    return inverse @ (vectors @ numpy.diag(numpy.exp(2 * values)) @ vectors.T) @ inverse.T, e + high
+    return inverse @ (vectors @ numpy.diag(numpy.exp(2 * values)) @ vectors.T) @ inverse.T, e + flow
 
 
 def chain():
@@ -124,6 +126,7 @@ def chain():
     return rows
 
 
+@functools.lru_cache(maxsize=None)
 def tension():
     """Homogeneous plane-strain tension in steps of 1e-4: (F, Cpi, plastic strain) with P_xx = 0, by secants."""
     states, across = [(I, I, 0.0)], 0.0
@@ -138,7 +141,7 @@ def tension():
         old, new = across, across - 0.9 * TENSION_STEP
         before, (now, state) = pull(old)[0], pull(new)
         for _ in range(20):
-            if abs(now) < 1e-10 * LAW.tau_y0 or now == before:
+            if abs(now) < 1e-9 * LAW.tau_y0 or now == before:
                 break
             old, new, before = new, new - now * (new - old) / (now - before), now
             now, state = pull(new)
@@ -165,6 +168,7 @@ def check(case):
     check_chain(case)
     check_tension(case)
     check_proportional(case)
+    check_rotation(case)
     for name in PATHS:
         found = Convergence(case, name)
         case.figure(f"path_{name}_order", found.order())
@@ -197,8 +201,9 @@ def check_tension(case):
                                  for row, (F, Cpi, _) in enumerate(states) if row))
     rows = {strain: round(strain / TENSION_STEP) for strain in TENSION}
     names = ("F_xx", "P_yy", "kirchhoff_equivalent_stress", "equivalent_plastic_strain")
-    case.figure("tension_digits", max(abs(table[name][rows[strain]] - value) / digit for strain, values in TENSION.items()
-                                      for name, value, digit in zip(names, values, DIGITS)))
+    beyond = [max(0.0, abs(table[name][rows[strain]] - value) - digit) / value for strain, values in TENSION.items()
+              for name, value, digit in zip(names, values, DIGITS) if value]
+    case.figure("tension_table", 100 * max(beyond))
     case.figure("tension_lateral", max(abs(table["P_xx"])) / LAW.tau_y0)
     top = int(numpy.argmax(table["P_yy"]))
     case.figure("tension_largest", table["P_yy"][top])
@@ -215,11 +220,26 @@ def check_proportional(case):
     case.figure("proportional_eps", abs(case.results["proportional"].table["equivalent_plastic_strain"][-1] / high - 1))
 
 
+def check_rotation(case):
+    """A superposed rotation turns the stress and nothing else."""
+    straight, turned = (case.results[name].table for name in ("straight", "turned"))
+    turns = [F @ numpy.linalg.inv(U) for U, F in zip(*winding())]
+    case.figure("rotation_P", max(relative(stress_of(turned, row), R @ stress_of(straight, row))
+                                  for row, R in enumerate(turns) if row))
+    case.figure("rotation_eps", relative(turned["equivalent_plastic_strain"], straight["equivalent_plastic_strain"]))
+
+
+@functools.lru_cache(maxsize=None)
+def followed(name):
+    """States at the corners of a path by the rate equations."""
+    return rates.follow(LAW, PATHS[name], parts=100 if name == "large" else 20)[1:]
+
+
 class Convergence:
     """Stress and plastic strain at the corners of a path for several steps, against the rate equations."""
 
     def __init__(self, case, name):
-        states = rates.follow(LAW, PATHS[name], 20 if len(PATHS[name]) < 9 else 4)[1:]
+        states = followed(name)
         exact = (numpy.array([LAW.stress(F, Cpi) for F, Cpi, _ in states]), numpy.array([e for _, _, e in states]))
         self.exact, self.found = exact, []
         for steps in SUBSTEPS:
@@ -251,8 +271,10 @@ def pictures(case, folder):
     for name, colour in zip(PATHS, ("#f7c548", "#ee6c2b", "#c4173a", "#6a4c93")):
         found = Convergence(case, name)
         right.loglog(SUBSTEPS, [found.error(level, 0) for level in range(len(SUBSTEPS))], "o-", color=colour, label=name)
-    right.loglog(SUBSTEPS, [0.3 / steps for steps in SUBSTEPS], "k:", label="first order")
+    right.loglog(SUBSTEPS, [0.013 / steps for steps in SUBSTEPS], "k:", label="first order")
     right.set(xlabel="steps per piece of the path", ylabel="relative error of P", title="Strain paths against the rate equations")
+    right.set_xticks(SUBSTEPS, [str(steps) for steps in SUBSTEPS])
+    right.xaxis.set_minor_locator(NullLocator())
     for axes in (left, right):
         axes.legend(fontsize=8)
         axes.grid(color="#e3e8ee")

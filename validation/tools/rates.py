@@ -100,27 +100,25 @@ def follow(law, corners, parts=40):
 
 def _piece(law, F, rate, Cpi, e, parts):
     """A straight piece, s from 0 to 1: elastic, then plastic until it ends or unloads, and so on."""
-    s = 0.0
+    s, flowed = 0.0, False
     while s < 1:
-        s = _elastic_end(law, F, Cpi, e, s, parts)
+        s = _elastic_end(law, F, Cpi, e, s, parts, flowed)
+        flowed = True
         if s < 1:
             s, Cpi, e = _plastic(law, F, rate, Cpi, e, s, parts)
     return Cpi, e
 
 
-def _elastic_end(law, F, Cpi, e, s, parts):
-    """Where the elastic domain is left; s itself if flow goes on."""
+def _elastic_end(law, F, Cpi, e, s, parts, unloading):
+    """Where the elastic domain is left; s itself if flow goes on from the piece before."""
     excess = lambda t: law.equivalent(F(t), Cpi) - law.strength(e)  # noqa: E731
     small = 1e-10
-    if excess(min(1.0, s + small)) > 0 and excess(s) > -1e-9 * law.tau_y0:
+    if not unloading and excess(min(1.0, s + small)) > 0 and excess(s) > -1e-9 * law.tau_y0:
         return s
     grid = numpy.linspace(min(1.0, s + small), 1, 50 * parts + 1)
     for low, high in zip(grid[:-1], grid[1:]):
         if excess(high) > 0:
-            while high - low > 1e-16:
-                middle = 0.5 * (low + high)
-                if middle in (low, high):
-                    break
+            while low < (middle := 0.5 * (low + high)) < high:
                 low, high = (low, middle) if excess(middle) > 0 else (middle, high)
             return high
     return 1.0

@@ -1,4 +1,4 @@
-// Rigid, frictionless plane walls that particles are pushed back from by a penalty:
+// Rigid, frictionless plane walls that particles are pushed back from by a penalty [CBM wall]:
 //   f_i = k_i g n,  g = radius - (x_i - point) . n > 0,  k_i = stiffness c0^2 m_i / dx^2
 // with c0 the wave speed of the body, m_i the particle's mass and dx the body's mean spacing, so that
 // every particle bounces with the frequency sqrt(stiffness) c0/dx whatever its mass.

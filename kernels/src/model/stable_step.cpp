@@ -1,4 +1,5 @@
-// The stable step now: that of the undeformed body, times how much the deformation shortens it.
+// The stable step now: that of the undeformed body, times how much the deformation shortens it
+// [CBM deformed].
 #include <algorithm>
 #include <cmath>
 

@@ -81,8 +81,8 @@ class Newton {
     bool first = true;
     for (iterations = 0;; ++iterations) {
       const double scale = force_scale();
-      relative = scale > 0 ? norm / scale : 0.0;
-      if (!first && (norm <= options_.tolerance * scale || norm <= kRounding * unbalanced_)) break;
+      relative = scale > 0 && norm > kRounding * unbalanced_ ? norm / scale : 0.0;
+      if (!first && relative <= options_.tolerance) break;
       if (iterations == options_.max_iterations) {
         throw no_convergence(body_, text("residual ", relative, " of the forces after ", iterations,
                                          " iterations, wanted ", options_.tolerance));

@@ -1,6 +1,6 @@
 // Quasi-static equilibrium: Newton's method with the consistent tangent on the gradient operator, for
 // every formulation whose forces come from it alone. One call is one load increment; cutting it back is
-// the caller's business, to whom a failed call gives the state before it.
+// the caller's business, to whom a failed call gives the state before it.              [FEM equilibrium]
 #pragma once
 
 #include <cstdint>

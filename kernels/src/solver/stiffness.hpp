@@ -1,6 +1,6 @@
 // The tangent stiffness of a body through its gradient operator, for degrees of freedom that are free
 // to move:  K_(a,j)(b,m) = sum_q (1/Omega_q) A^q_jkml zeta_qa,k zeta_qb,l  over all particles a, b of
-// row q, the point's own particle with - sum_p zeta_qp among them.
+// row q, the point's own particle with - sum_p zeta_qp among them.                  [FEM stiffness]
 #pragma once
 
 #include <Eigen/SparseCore>

@@ -104,7 +104,7 @@ TEST_F(Elements, RestartIsBitwise) {
       "&load name='top' kind='velocity' set='ymax' directions='y' value=0.02 /\n"
       "&output every_steps=5 fields='velocity','equivalent_stress','equivalent_plastic_strain' /\n"
       "&history every_steps=3 /\n&section name='s' point=0,2.2,0 /\n"
-      "&checkpoint every_steps=10 keep=20 /\n";
+      "&checkpoint every_steps=5 keep=50 /\n";
   for (const Form& form : forms) {
     const std::string whole = form.directory, cut = whole + "cut";
     ASSERT_EQ(run("t_end=15", plate(form.body) + form.groups + pull, whole), 0);
@@ -114,7 +114,7 @@ TEST_F(Elements, RestartIsBitwise) {
     const char* const files[] = {"case.exo", "case.history.nc", "case.history.csv",
                                  "case.events.nc"};
     for (const char* file : files) fs::copy(path(whole) + "/" + file, path(cut));
-    fs::copy(path(whole + "/case.20.checkpoint.nc"), path(cut));
+    fs::copy(path(whole + "/case.5.checkpoint.nc"), path(cut));
     RunOptions options = quiet;
     options.threads = 2;
     ASSERT_EQ(restart_run(path(cut), "", options), 0) << whole;

@@ -57,9 +57,10 @@ TEST_F(Static, HomogeneousTensionFollowsTheLaw) {
         elements);
     const auto h = read_history(path(std::string(elements) + "/case.history.csv"));
     for (const Row& row : kRows) {
-      // measured: 1e-5 and, in the first plastic increments, 2e-4
-      EXPECT_NEAR(at(h, "reaction_head_y", row.strain) / 2 / row.p_yy, 1.0, 5e-4) << row.strain;
-      EXPECT_NEAR(at(h, "tau", row.strain) / row.kirchhoff, 1.0, 5e-4) << row.strain;
+      // measured 5e-4 where it yields first, 2e-6 with steps as short as those of the table; 2e-5
+      EXPECT_NEAR(at(h, "reaction_head_y", row.strain) / 2 / row.p_yy, 1.0, 1e-3) << row.strain;
+      EXPECT_NEAR(at(h, "tau", row.strain) / row.kirchhoff, 1.0, 1e-4) << row.strain;
+      // measured 3e-6 and 7e-6
       EXPECT_NEAR(at(h, "ep", row.strain), row.plastic, 2e-5) << row.strain;
       EXPECT_NEAR(1 + at(h, "u_x", row.strain) / 2, row.stretch_x, 2e-5) << row.strain;
     }
@@ -86,7 +87,7 @@ TEST_F(Static, EqualsASlowExplicitRun) {
   const auto rest = read_history(path("static/case.history.csv"));
   for (const char* column :
        {"reaction_top_x", "reaction_top_y", "u_x", "u_y", "elastic", "section_middle_force_x"}) {
-    // measured 1e-6
+    // measured 2e-5
     EXPECT_NEAR(slow.at(column).back() / rest.at(column).back(), 1.0, 1e-4) << column;
   }
 }
@@ -103,7 +104,7 @@ TEST_F(Static, UnloadingAndRigidMotionConverge) {
       "unloaded");
   const auto back = read_history(path("unloaded/case.history.csv"));
   EXPECT_GT(at(back, "reaction_head_y", 1.0), 100.0);
-  EXPECT_NEAR(back.at("reaction_head_y").back(), 0.0, 1e-9);
+  EXPECT_NEAR(back.at("reaction_head_y").back(), 0.0, 1e-6);  // measured 2e-9
   run("mode='static' t_end=1",
       body +
           "&static increments=3 cut_backs=0 /\n"
@@ -115,10 +116,10 @@ TEST_F(Static, UnloadingAndRigidMotionConverge) {
       "moved");
   const auto moved = read_history(path("moved/case.history.csv"));
   EXPECT_NEAR(moved.at("u_x").back(), 5.0, 1e-12);
-  EXPECT_NEAR(moved.at("reaction_head_y").back(), 0.0, 1e-7);  // rounding of 1e6 N
+  EXPECT_NEAR(moved.at("reaction_head_y").back(), 0.0, 1e-7);  // measured 5e-10, of 1e6 N
 }
 
-// A third of the height in one go is more than Newton's method takes from the virgin state.
+// A third of the height in one go is more than Newton's method takes once the body has yielded.
 const std::string kHardPull =
     fem_block("quadratic") +
     "&load name='foot' kind='displacement' set='ymin' directions='xy' /\n"
@@ -130,15 +131,15 @@ TEST_F(Static, IncrementsAreCutBack) {
   const std::string said = message_of<RunError>([&] {
     run("mode='static' t_end=1", kHardPull + "&static increments=2 cut_backs=0 /\n", "whole");
   });
-  EXPECT_TRUE(has(said, "the run failed in step 1"));
+  EXPECT_TRUE(has(said, "the run failed in step 2"));
   EXPECT_TRUE(has(said, "use a smaller load increment"));
   EXPECT_EQ(run("mode='static' t_end=1", kHardPull + "&static increments=2 /\n", "cut"), 0);
   EXPECT_EQ(run("mode='static' t_end=1", kHardPull + "&static increments=64 /\n", "fine"), 0);
   const auto cut = read_history(path("cut/case.history.csv"));
   const auto fine = read_history(path("fine/case.history.csv"));
   EXPECT_EQ(cut.at("step").size(), 3u);
-  // measured 2 %: the plastic path is followed in steps of another size
-  EXPECT_NEAR(cut.at("reaction_head_y").back() / fine.at("reaction_head_y").back(), 1.0, 0.05);
+  // measured 0.7 %: the plastic path is followed in steps of another size
+  EXPECT_NEAR(cut.at("reaction_head_y").back() / fine.at("reaction_head_y").back(), 1.0, 0.02);
 }
 
 TEST_F(Static, RestartIsBitwiseWithCutBacks) {

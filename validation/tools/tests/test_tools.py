@@ -1,4 +1,4 @@
-"""Decks, measures of cracks, result reader and picture, on made-up data with known answers."""
+"""Decks, measures of cracks and curves, interpolation, rate equations, result reader and picture, on made-up data with known answers."""
 import pathlib
 import sys
 import tempfile
@@ -7,7 +7,7 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]))
 import netCDF4  # noqa: E402
 import numpy  # noqa: E402
-from tools import cracks, deck, picture, results  # noqa: E402
+from tools import cracks, curves, deck, interpolation, picture, rates, results, simulation  # noqa: E402
 
 DECK = """! a deck
 &run
@@ -68,6 +68,120 @@ class Cracks(unittest.TestCase):
         x = numpy.arange(5.0)
         self.assertEqual(cracks.path_distance(x, 0 * x, x, 0 * x), 0.0)
         self.assertEqual(cracks.path_distance(x, 0 * x, x, 0 * x + 2), 2.0)
+
+
+class Curves(unittest.TestCase):
+    strain = numpy.linspace(0, 0.05, 501)
+    stress = numpy.where(strain < 0.002, 250e3 * strain, 500 + 2e3 * (strain - 0.002))
+
+    def test_slope_and_knee(self):
+        self.assertAlmostEqual(curves.slope((self.strain, self.stress), 50, 350), 250e3, delta=1e-6)
+        self.assertAlmostEqual(curves.knee((self.strain, self.stress), 250e3), 500, delta=0.2)
+
+    def test_slope_ends_where_the_stress_was_exceeded_first(self):
+        softened = numpy.where(self.strain > 0.03, 100.0, self.stress)
+        self.assertAlmostEqual(curves.slope((self.strain, softened), 50, 350), 250e3, delta=1e-6)
+
+    def test_largest_difference_only_between_the_strains(self):
+        other = self.stress * (1 + 0.5 * (self.strain < 0.01) - 0.03 * (self.strain > 0.03))
+        found = curves.largest_difference((self.strain, other), (self.strain, self.stress), 0.02, 0.05)
+        self.assertAlmostEqual(found, 3.0, places=9)
+
+    def test_error_norm(self):
+        self.assertAlmostEqual(curves.error_norm([3.0, 4.0], [3.0, 3.0]), 100 / numpy.sqrt(18), places=12)
+
+
+class Interpolation(unittest.TestCase):
+    def setUp(self):
+        self.points, self.targets = (numpy.random.default_rng(7).uniform(0, 1, (count, 2)) for count in (400, 50))
+
+    def test_quadratic_fields_are_exact(self):
+        field = lambda p: 1 + p[:, 0] - 2 * p[:, 1] + 3 * p[:, 0] * p[:, 1] - p[:, 1] ** 2  # noqa: E731
+        between = interpolation.Interpolation(self.points, self.targets)
+        self.assertLess(abs(between(field(self.points)) - field(self.targets)).max(), 1e-10)   # measured 5e-14
+
+    def test_third_order(self):
+        field = lambda p: numpy.sin(3 * p[:, 0]) * numpy.cos(2 * p[:, 1])  # noqa: E731
+        errors = []
+        for side in (20, 40):
+            line = (numpy.arange(side) + 0.5) / side
+            points = numpy.array([(x, y) for y in line for x in line])
+            errors.append(abs(interpolation.Interpolation(points, self.targets)(field(points)) - field(self.targets)).max())
+        self.assertGreater(numpy.log2(errors[0] / errors[1]), 2.5)
+
+    def test_neighbours_are_the_nearest(self):
+        found = interpolation.nearest(self.points, self.targets, 5)
+        distance = numpy.linalg.norm(self.points[None] - self.targets[:, None], axis=2)
+        numpy.testing.assert_array_equal(found, numpy.argsort(distance, axis=1)[:, :5])
+
+
+class Rates(unittest.TestCase):
+    law = rates.J2(80000.0, 170000.0, 400.0, 700.0, 100.0, 15.0)
+
+    def test_extrapolation_of_an_exponential(self):
+        found = rates.extrapolated(lambda t, y: -y, 0.0, 1.0, numpy.array([1.0]))
+        self.assertAlmostEqual(found[0], numpy.exp(-1), delta=1e-13)
+
+    def test_uniaxial_strain_has_a_closed_form(self):
+        end = numpy.diag([1.2, 1.0, 1.0])
+        _, plastic = rates.follow(self.law, [numpy.eye(3), end])[-1][1:]
+        stress = 2 * self.law.G * numpy.log(1.2) - 3 * self.law.G * plastic     # the direction of flow is constant
+        self.assertAlmostEqual(stress, self.law.strength(plastic), delta=1e-7)
+
+    def test_unloading_at_a_corner_and_reversal(self):
+        shear = lambda value: numpy.array([[1, value, 0], [0, 1, 0], [0, 0, 1.0]])  # noqa: E731
+        states = rates.follow(self.law, [shear(0), shear(0.02), shear(0.019), shear(-0.02)], parts=10)
+        plastic = [state[2] for state in states]
+        self.assertEqual(plastic[1], plastic[2])
+        self.assertGreater(plastic[3], plastic[2] + 0.01)
+        for F, Cpi, e in (states[1], states[3]):
+            self.assertAlmostEqual(self.law.equivalent(F, Cpi) / self.law.strength(e), 1, delta=1e-9)
+            self.assertAlmostEqual(numpy.linalg.det(Cpi), 1, delta=1e-10)
+
+    def test_unloading_inside_a_piece(self):
+        """A chord of a rotation compresses, unloads and stretches again; where flow ends must not depend on the parts."""
+        c, s = numpy.cos(0.26), numpy.sin(0.26)
+        turned = numpy.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
+        coarse, fine = (rates.follow(self.law, [numpy.eye(3), turned], parts)[-1] for parts in (2, 3))
+        self.assertGreater(fine[2], 0.005)
+        self.assertAlmostEqual(coarse[2] / fine[2], 1, delta=1e-9)      # measured 2e-12
+        self.assertAlmostEqual(self.law.equivalent(*fine[:2]) / self.law.strength(fine[2]), 1, delta=1e-9)
+
+    def test_plastic_work_is_the_integral_of_the_strength(self):
+        e = numpy.linspace(0, 0.3, 3001)
+        strength = self.law.strength(e)
+        self.assertAlmostEqual(self.law.plastic_work(0.3), (strength[:-1] + strength[1:]).sum() / 2 * 1e-4, delta=1e-4)
+
+
+class Commands(unittest.TestCase):
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.folder = pathlib.Path(holder.name)
+
+    def execute(self, script, run):
+        program = self.folder / "cleave"
+        program.write_text(f"#!/bin/sh\n{script}\n")
+        program.chmod(0o755)
+        return simulation.execute(run, self.folder, self.folder / "work", str(program), 1)
+
+    def test_output_of_a_command_is_a_table_and_its_inputs_are_written(self):
+        run = simulation.Run("one", command=("point", "law"), inputs={"path.csv": "3,4\n"})
+        result = self.execute("echo 'a [m],b'; cat path.csv; echo $#,0; echo note >&2", run)
+        self.assertEqual({name: list(column) for name, column in result.table.items()}, {"a": [3, 2], "b": [4, 0]})
+
+    def test_a_failed_command_shows_its_message(self):
+        with self.assertRaisesRegex(simulation.RunError, "ended with 2.*\n.*no such law"):
+            self.execute("echo no such law >&2; exit 2", simulation.Run("one", command=("point", "law")))
+
+
+class PrintedTables(unittest.TestCase):
+    def test_units_are_cut_off(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "a.csv"
+            path.write_text("time [s],P_xx [Pa]\n0,1\n2,3.5\n")
+            table = results.read_csv(path)
+        self.assertEqual({name: list(column) for name, column in table.items()}, {"time": [0, 2], "P_xx": [1, 3.5]})
 
 
 def write_exodus(path, side=6):

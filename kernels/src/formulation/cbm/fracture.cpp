@@ -53,9 +53,7 @@ void Fracture::setup(const Body& body, const Network& network) {
   for (auto* list : {&killed_volume_, &release_, &bond_release_}) {
     list->reserve(static_cast<std::size_t>(std::min(network.bonds, kReserve)));
   }
-  // A bond and a simplex of it each: a body without strength may break all at once.
-  const std::int64_t edges = body.dimension() == 2 ? 3 : 6;
-  cuts_.reserve(static_cast<std::size_t>(std::min(edges * network.simplices, kReserve)));
+  cuts_.reserve(static_cast<std::size_t>(std::min(network.bonds, kReserve)));
 }
 
 // eps_crit given, or sqrt(2 G_f / (E l)).                                                [CBM 32]

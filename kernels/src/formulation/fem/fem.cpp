@@ -13,7 +13,7 @@ namespace cleave::fem {
 namespace {
 
 // dt = kSafety * 2/omega_max of the stiffest element, an upper bound of the body's omega_max
-// (Irons and Treharne), at the reference configuration.
+// (Irons and Treharne), at the reference configuration.        [FEM step]
 constexpr double kSafety = 0.9;
 
 // f(Element{}) for the elements of the body.
