@@ -126,7 +126,7 @@ TEST(JohnsonCook, DamageFollowsTheFailureStrain) {
 }
 
 template <class Law>
-void fails_for_good(const std::vector<double>& properties) {
+void fails_for_good(const std::vector<double>& properties, double tolerance) {
   Sample s = Sample::of<Law>(properties);
   double strain = 0, stored = 0, work = 0, dissipated = 0;
   Matrix3 last{}, before{};
@@ -139,11 +139,15 @@ void fails_for_good(const std::vector<double>& properties) {
     for (std::size_t k = 0; k < 3; ++k)
       work += 0.5 * (s.P[k][k] + before[k][k]) * (h[k][k] - last[k][k]);
     dissipated += s.plastic + s.viscous;
+    const double released = stored - s.energy;
     stored = s.energy;
     last = h;
     before = s.P;
     if (s["damage_johnson_cook"] >= 1) {
-      if (failed_at > 0) break;
+      if (failed_at > 0) {
+        EXPECT_NEAR(s.plastic, released, tolerance * released);
+        break;
+      }
       failed_at = n;
       EXPECT_GT(s.equivalent_stress(h), 1e8);
     }
@@ -174,10 +178,11 @@ void fails_for_good(const std::vector<double>& properties) {
 TEST(JohnsonCook, FailsForGood) {
   Strength set;
   set.fails = true;
-  fails_for_good<JohnsonCook>(copper(set));
+  fails_for_good<JohnsonCook>(copper(set), 1e-9);
   Shock still;
   still.q1 = still.q2 = 0;
-  fails_for_good<JohnsonCookEos>(copper_eos(set, still));
+  // The trapezoid of the energy adds half a step of the work of the last tension.
+  fails_for_good<JohnsonCookEos>(copper_eos(set, still), 0.3);
 }
 
 TEST(JohnsonCook, TangentIsTheDerivativeOfTheStep) {
