@@ -118,9 +118,9 @@ def returned(F, Cpi, e):
 
 def chain():
     """Deformation gradients of a random walk, elastic and plastic steps of 1e-5 to 1e-2."""
-    random, F, rows = numpy.random.default_rng(3), I.copy(), [I]
+    generator, F, rows = numpy.random.default_rng(3), I.copy(), [I]
     for _ in range(400):
-        F = F + 10 ** random.uniform(-5, -2) * random.standard_normal((3, 3))
+        F = F + 10 ** generator.uniform(-5, -2) * generator.standard_normal((3, 3))
         F = F / numpy.linalg.det(F) ** (1 / 6)            # keeps the volume near one
         rows.append(F)
     return rows

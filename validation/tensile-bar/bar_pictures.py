@@ -131,11 +131,11 @@ def draw_errors(check, case, out):
             if field == "eps":
                 axis.axhline(1.5, color="#3a7d44", ls="--", lw=1.2, label="paper, CBM")
             axis.set(title=f"{title}: {meanings[reading]}", ylim=(0, 20))
-            axis.title.set_fontsize(10)
+            axis.title.set_fontsize(9)
             axis.grid(color="#e3e8ee")
     for row in axes:
         row[0].set_ylabel("error (29) [%]")
-        row[0].legend(fontsize=7)
+        row[-1].legend(fontsize=8, loc="upper right")
     for axis in axes[1]:
         axis.set_xlabel("ψ")
     picture.save(figure, out, dpi=120)

@@ -127,6 +127,16 @@ def at_points(data, points):
     return interpolation.Interpolation(centroids(data), points)
 
 
+def on_fillets(data):
+    """Particles on the free edge of the fillets of the default bar, a quarter of a spacing past their ends included."""
+    edges = numpy.sort(numpy.concatenate([data.simplices[:, pair] for pair in ((0, 1), (1, 2), (2, 0))]), axis=1)
+    ends, times = numpy.unique(edges, axis=0, return_counts=True)
+    free = numpy.zeros(len(data.points), bool)
+    free[ends[times == 1].ravel()] = True
+    beyond = abs(data.points[:, 1] - HEIGHT / 2) - 9.0                  # past the end of the straight neck
+    return free & (beyond >= 0) & (beyond <= 2 + 0.25 * FINE)
+
+
 def compared(points, spacing=FINE):
     """Particles that enter (29): at least 4 l_c from the driven rows."""
     y, slack = points[:, 1], 1e-9 * HEIGHT
@@ -178,6 +188,7 @@ def check(case):
     errors = {bar: Errors(case, bar) for bar in (SHOULDERS if case.full else ("",))}
     for field in FIELDS:
         case.figure(f"{field}_cbm", errors[""].cbm(field))
+    check_fillets(case, errors[""])
     if case.full:
         for reading, (bar, _) in READINGS.items():
             check_sph(case, errors[bar], reading)
@@ -272,6 +283,16 @@ def check_reference(case, errors):
         case.figure(f"{name}_inertia", curves.error_norm(dynamic, static))
         case.figure(f"{name}_static", field_error(case.results["static"], errors.reference, field, errors.between))
     case.figure("plateau_fem-next", curve(case.results["fem-next"])[1][-1])
+
+
+def check_fillets(case, errors):
+    """Parts of the error of CBM: on the edge of the fillets and elsewhere; their squares add to its square."""
+    data, reference = case.results["cbm-1800"].exodus, errors.between(errors.reference.exodus.element(STRAIN))
+    inside, edge = compared(errors.points), on_fillets(data)
+    squares = (data.nodal(STRAIN) - reference) ** 2 / (reference[inside] ** 2).sum()
+    case.figure("particles_on_fillets", (inside & edge).sum())
+    case.figure("eps_on_fillets", 100 * math.sqrt(squares[inside & edge].sum()))
+    case.figure("eps_elsewhere", 100 * math.sqrt(squares[inside & ~edge].sum()))
 
 
 def check_shoulders(case, errors):

@@ -21,8 +21,8 @@ from tools.simulation import Result, Run  # noqa: E402
 FINE = check.FINE
 
 
-def sph(name, changes=None):
-    return Run(name, "tlsph.nml", check.sph(1.5, 0.07).changes | (changes or {}), check.mesh(FINE))
+def sph(name, changes=None, radius=1.5, psi=0.07):
+    return Run(name, "tlsph.nml", check.sph(radius, psi).changes | (changes or {}), check.mesh(FINE))
 
 
 def runs():
@@ -33,19 +33,22 @@ def runs():
     made["TLSPH, cut-off 3 l_c, psi = 0.07"] = sph("sph")
     made["TLSPH, step 0.2 l_c/c0"] = sph("sph-step", {"run.step_factor": 0.1238})
     made["TLSPH, conservative penalty"] = sph("sph-conservative", {"hourglass.form": "conservative"})
+    made["TLSPH, cut-off 4 l_c, psi = 1"] = sph("sph-strong", radius=2, psi=1)
+    made["TLSPH, the same, half the step"] = sph("sph-strong-step", {"run.step_factor": 0.4}, radius=2, psi=1)
     return made
 
 
 def row(result):
-    """Particles, errors of plastic strain and equivalent stress (per cent), nominal stress at the end (MPa)."""
+    """Particles, errors of plastic strain and equivalent stress (per cent), stress at the end (MPa), energy balance."""
     stress = check.curve(result)[1][-1]
     count = len(result.exodus.points)
     if check.is_static(result):
-        return [str(count), "", "", f"{stress:.1f}"]
+        return [str(count), "", "", f"{stress:.1f}", ""]
     reference = Result(Run("fem", "fem.nml"), result.folder.parent / "fem")
     errors = [check.field_error(result, reference, field) for field in check.FIELDS.values()]
-    return [str(count), *(f"{error:.2f}" for error in errors), f"{stress:.1f}"]
+    return [str(count), *(f"{error:.2f}" for error in errors), f"{stress:.1f}", f"{check.closure(result):.1e}"]
 
 
 if __name__ == "__main__":
-    sensitivity.main(HERE, runs(), ["particles", "plastic strain (%)", "equivalent stress (%)", "end stress (MPa)"], row)
+    sensitivity.main(HERE, runs(), ["particles", "plastic strain (%)", "equivalent stress (%)", "end stress (MPa)",
+                                   "balance error"], row)
