@@ -43,10 +43,9 @@ def runs(mode):
 
 def shape(result):
     """Length, mushroom and intermediate diameter [mm]."""
-    reference = result.exodus.points * 1e3
-    current = reference + result.exodus.displacement() * 1e3
+    reference, position = current(result)
     surface = numpy.hypot(reference[:, 0], reference[:, 1]) > RADIUS * (1 - 1e-3)
-    radius, height = numpy.hypot(current[:, 0], current[:, 1]), current[:, 2]
+    radius, height = numpy.hypot(position[:, 0], position[:, 1]), position[:, 2]
     size = RUNS[result.run.name][1]
     beside = surface & (abs(height - HEIGHT) < 0.6 * size)
     return numpy.ptp(height), 2 * radius.max(), 2 * radius[beside].mean()
@@ -69,18 +68,43 @@ def check(case):
         case.figure("refinement", abs(lengths["cbm_finest"] - lengths["cbm"]) / lengths["cbm_finest"])
 
 
-def pictures(case, folder):
+def current(result):
+    """Reference and current positions [mm]."""
+    reference = result.exodus.points * 1e3
+    return reference, reference + result.exodus.displacement() * 1e3
+
+
+def profiles(case):
+    """Surface of every run, and the three measured numbers."""
     figure, axes = plt.subplots(figsize=(8, 4.6), layout="constrained")
     for name in names(case.mode):
-        reference = case.results[name].exodus.points * 1e3
-        current = reference + case.results[name].exodus.displacement() * 1e3
+        reference, position = current(case.results[name])
         surface = numpy.hypot(reference[:, 0], reference[:, 1]) > RADIUS * (1 - 1e-3)
-        order = numpy.argsort(current[surface, 2])
-        axes.plot(current[surface, 2][order], numpy.hypot(*current[surface, :2].T)[order], ".", ms=2, label=name)
-    axes.plot([16.2], [RADIUS], "k^", label="experiment: length")
-    axes.plot([0.0], [13.5 / 2], "kv", label="experiment: mushroom")
-    axes.plot([HEIGHT], [10.1 / 2], "ks", label="experiment: at 0.2 L0")
+        axes.plot(position[surface, 2], numpy.hypot(*position[surface, :2].T), ".", ms=3, label=name)
+    for place, radius, mark, text in ((16.2, RADIUS, "^", "length"), (0.0, 13.5 / 2, "v", "mushroom"),
+                                      (HEIGHT, 10.1 / 2, "s", "at 0.2 L0")):
+        axes.plot([place], [radius], "k" + mark, ms=7, label="experiment: " + text)
     axes.set(xlabel="height above the wall (mm)", ylabel="radius (mm)", xlim=(-0.5, 19), ylim=(3, 9))
-    axes.legend(fontsize=7, markerscale=3)
-    picture.save(figure, folder / "figure.png", dpi=130)
-    return [("figure.png", "Surface of the rod after 80 µs")]
+    axes.legend(fontsize=8)
+    return figure
+
+
+def cuts(case):
+    """Particles near the plane y = 0, coloured by plastic strain."""
+    shown = [name for name in ("cbm", "cbm_alpha0", "tlsph") if name in names(case.mode)] or names(case.mode)
+    figure, axes = plt.subplots(1, len(shown), figsize=(3.2 * len(shown), 4.6), layout="constrained", sharey=True)
+    for name, ax in zip(shown, axes):
+        reference, position = current(case.results[name])
+        near = abs(reference[:, 1]) < 0.6 * RUNS[name][1]
+        strain = case.results[name].exodus.nodal("equivalent_plastic_strain")
+        drawn = ax.scatter(position[near, 0], position[near, 2], c=strain[near], s=40 * RUNS[name][1] ** 2, vmin=0, vmax=2)
+        ax.set(title=name, xlabel="x (mm)", aspect="equal", xlim=(-8.5, 8.5), ylim=(-0.5, 17))
+    axes[0].set_ylabel("height (mm)")
+    figure.colorbar(drawn, ax=list(axes), label="equivalent plastic strain")
+    return figure
+
+
+def pictures(case, folder):
+    picture.save(profiles(case), folder / "figure.png", dpi=130)
+    picture.save(cuts(case), folder / "cut.png", dpi=130)
+    return [("figure.png", "Surface of the rod after 80 µs"), ("cut.png", "Plastic strain in a cut through the axis")]
