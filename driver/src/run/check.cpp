@@ -68,9 +68,13 @@ int check_deck(const Deck& deck, const RunOptions& options) {
   if (options.quiet) return 0;
   say_bodies(scene);
   say("memory " + bytes_text(scene.model().memory()));
-  say("stable step " + number(step.stable) + " (" + step.governed_by + ")");
-  say("step " + number(step.clock.dt) + ", " + number(step.clock.steps) +
-      " steps to t = " + number(step.clock.time(step.clock.steps)));
+  const std::string end = " to t = " + number(step.clock.time(step.clock.steps));
+  if (Stepping(deck).is_static()) {
+    say(number(step.clock.steps) + " load increments of " + number(step.clock.dt) + end);
+  } else {
+    say("stable step " + number(step.stable) + " (" + step.governed_by + ")");
+    say("step " + number(step.clock.dt) + ", " + number(step.clock.steps) + " steps" + end);
+  }
   for (const std::string& warning : step.warnings) say("warning: " + warning);
   const double total = seconds * static_cast<double>(step.clock.steps);
   say("estimated " + number(total / 3600, 3) + " hours (" + duration_text(total) + ") on " +

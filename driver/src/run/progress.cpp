@@ -103,8 +103,11 @@ void Progress::banner(const Scene& scene, const TimeStep& step, std::int64_t fir
        (scene.bodies().size() == 1 ? " body, " : " bodies, ") + number(counts.particles) +
        " particles, " + number(counts.bonds) + " bonds, " + number(counts.simplices) +
        " simplices, " + bytes_text(scene.model().memory()));
-  note("  step " + number(step.clock.dt) + " (stable " + number(step.stable) + "), " +
-       number(step.clock.steps) + " steps to t = " + number(step.clock.time(step.clock.steps)) +
+  const bool statics = run.text("mode") == "static";
+  note((statics ? "  load increment " + number(step.clock.dt) + ", "
+                : "  step " + number(step.clock.dt) + " (stable " + number(step.stable) + "), ") +
+       number(step.clock.steps) + (statics ? " increments to t = " : " steps to t = ") +
+       number(step.clock.time(step.clock.steps)) +
        (first_step > 0 ? ", continued after step " + number(first_step) : ""));
   for (const std::string& source : sources(deck)) note("  method " + source);
   for (const std::string& warning : step.warnings) warn(warning);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "formulation/common/unused_groups.hpp"
 #include "formulation/fem/elements.hpp"
 
 namespace cleave::fem {
@@ -22,12 +23,6 @@ auto with_element(const Body& body, const F& f) {
   if (body.dimension() == 3) return f(Linear<3>{});
   if (body.simplex_nodes == 6) return f(Triangle6{});
   return f(Linear<2>{});
-}
-
-void refuse_group(const Body& body, const char* group) {
-  if (!body.group(group).any_given()) return;
-  throw Error(CLEAVE_UNSUPPORTED, text(body.label(), ": formulation fem has no ", group,
-                                       "; leave the group out or apply it to other bodies"));
 }
 
 }  // namespace
@@ -148,7 +143,7 @@ double FiniteElements::highest_frequency_squared(const Body& body) const {
 
 void FiniteElements::setup(Body& body) {
   for (const char* group : {"fracture", "viscosity", "stabilisation", "kernel", "hourglass"})
-    refuse_group(body, group);
+    refuse_group(body, group, "leave it out, or apply it to other bodies");
   elements_ = static_cast<std::int64_t>(body.given_simplices.size()) / body.simplex_nodes;
   if (elements_ == 0) {
     throw Error(CLEAVE_BAD_ARGUMENT, text(body.label(), ": finite elements need simplices"));
