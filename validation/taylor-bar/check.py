@@ -41,21 +41,21 @@ def runs(mode):
     return made
 
 
-def shape(result):
-    """Length, mushroom and intermediate diameter [mm]."""
+def shape(result, size):
+    """Length, mushroom, diameter at the height 0.2 L0 and of what began there [mm]; size: of the mesh [mm]."""
     reference, position = current(result)
     surface = numpy.hypot(reference[:, 0], reference[:, 1]) > RADIUS * (1 - 1e-3)
     radius, height = numpy.hypot(position[:, 0], position[:, 1]), position[:, 2]
-    size = RUNS[result.run.name][1]
     beside = surface & (abs(height - HEIGHT) < 0.6 * size)
-    return numpy.ptp(height), 2 * radius.max(), 2 * radius[beside].mean()
+    began = surface & (abs(reference[:, 2] - HEIGHT) < 0.6 * size)
+    return numpy.ptp(height), 2 * radius.max(), 2 * radius[beside].mean(), 2 * radius[began].mean()
 
 
 def check(case):
     lengths = {}
     for name in names(case.mode):
         result = case.results[name]
-        length, mushroom, middle = shape(result)
+        length, mushroom, middle, _ = shape(result, RUNS[name][1])
         lengths[name] = length
         case.figure(f"length_{name}", length)
         case.figure(f"mushroom_{name}", mushroom)
