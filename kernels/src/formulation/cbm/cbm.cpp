@@ -110,10 +110,10 @@ double ContinuumBondMethod::stable_step(const Body& body) const {
   return kSafety * stable_length_ / wave_speed(body) / (1 + kViscousReduction * beta_ * longer);
 }
 
-std::string ContinuumBondMethod::static_obstacle(const Body& body) const {
+std::string ContinuumBondMethod::static_obstacle(const Body&) const {
   if (stabilisation_.active()) return "it has no tangent of the stabilisation; leave it off";
   if (fracture_.active()) return "bonds may not break in it; leave &fracture out";
-  return body.particles > 0 ? "" : "no particles";
+  return "";
 }
 
 void ContinuumBondMethod::break_bonds(Body& body, const Clock& clock, int threads) {
@@ -129,29 +129,9 @@ void ContinuumBondMethod::deform(Body& body, const Clock& clock, int threads) {
 }
 
 template <int D>
-void ContinuumBondMethod::viscous_force(Body& body, std::int64_t first, std::int64_t last) const {
-  const BodyOperator& g = operator_;
-  const PointArrays& pt = body.point;
-  switch (viscosity_) {
-    case ViscosityForm::none:
-      break;
-    case ViscosityForm::frozen:
-      viscous_force_frozen<D>(g, bond_rate_, network_.weight, pt.x, pt.v, pt.ratio, first, last,
-                              pt.viscous);
-      break;
-    case ViscosityForm::central:
-      viscous_force_deformed<D, true>(g, bond_rate_, pt.x, pt.v, pt.h, pt.ratio, first, last,
-                                      pt.viscous);
-      break;
-    case ViscosityForm::paper:
-      viscous_force_deformed<D, false>(g, bond_rate_, pt.x, pt.v, pt.h, pt.ratio, first, last,
-                                       pt.viscous);
-      break;
-  }
-}
-
-template <int D>
 void ContinuumBondMethod::forces_in(Body& body, int threads) {
+  const PointArrays& pt = body.point;
+  const ViscousArrays viscous{network_.weight, pt.x, pt.v, pt.h, pt.ratio, pt.viscous};
   const double* stress = stabilisation_.active()
                              ? stabilisation_.bond_stress<D>(body, network_, threads)
                              : body.point.p;
@@ -161,7 +141,7 @@ void ContinuumBondMethod::forces_in(Body& body, int threads) {
     internal_force<D>(operator_, stress, first, last, body.point.internal);
     if (stabilisation_.active())
       stabilisation_.add_force<D>(network_, first, last, body.point.internal);
-    viscous_force<D>(body, first, last);
+    viscous_force<D>(viscosity_, operator_, bond_rate_, viscous, first, last);
   });
 }
 

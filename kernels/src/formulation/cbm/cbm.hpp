@@ -37,8 +37,6 @@ class ContinuumBondMethod final : public Formulation {
   void setup_viscosity(const Body& body);
   template <int D>
   void forces_in(Body& body, int threads);
-  template <int D>
-  void viscous_force(Body& body, std::int64_t first, std::int64_t last) const;
 
   Network network_;
   BodyOperator operator_;

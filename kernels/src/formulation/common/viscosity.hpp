@@ -111,4 +111,30 @@ void viscous_force_deformed(const GradientOperator<Index, Offset>& g, const Bond
   }
 }
 
+// The arrays of a viscous force, as above. w: form frozen only.
+struct ViscousArrays {
+  const double *w, *x, *v, *h, *ratio;
+  double* f;
+};
+
+// The force of the chosen form on first <= i < last.
+template <int D, class Index, class Offset>
+void viscous_force(ViscosityForm form, const GradientOperator<Index, Offset>& g,
+                   const BondRate<Index>& rate, const ViscousArrays& a, std::int64_t first,
+                   std::int64_t last) {
+  switch (form) {
+    case ViscosityForm::none:
+      break;
+    case ViscosityForm::frozen:
+      viscous_force_frozen<D>(g, rate, a.w, a.x, a.v, a.ratio, first, last, a.f);
+      break;
+    case ViscosityForm::central:
+      viscous_force_deformed<D, true>(g, rate, a.x, a.v, a.h, a.ratio, first, last, a.f);
+      break;
+    case ViscosityForm::paper:
+      viscous_force_deformed<D, false>(g, rate, a.x, a.v, a.h, a.ratio, first, last, a.f);
+      break;
+  }
+}
+
 }  // namespace cleave

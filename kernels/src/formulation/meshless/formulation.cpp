@@ -84,28 +84,9 @@ void KernelMethod::deform(Body& body, const Clock& clock, int threads) {
 }
 
 template <int D>
-void KernelMethod::viscous_force(Body& body, std::int64_t first, std::int64_t last) const {
-  const PointArrays& pt = body.point;
-  switch (viscosity_) {
-    case ViscosityForm::none:
-      break;
-    case ViscosityForm::frozen:
-      viscous_force_frozen<D>(operator_, bond_rate_, bond_weight_.data(), pt.x, pt.v, pt.ratio,
-                              first, last, pt.viscous);
-      break;
-    case ViscosityForm::central:
-      viscous_force_deformed<D, true>(operator_, bond_rate_, pt.x, pt.v, pt.h, pt.ratio, first,
-                                      last, pt.viscous);
-      break;
-    case ViscosityForm::paper:
-      viscous_force_deformed<D, false>(operator_, bond_rate_, pt.x, pt.v, pt.h, pt.ratio, first,
-                                       last, pt.viscous);
-      break;
-  }
-}
-
-template <int D>
 void KernelMethod::forces_in(Body& body, int threads) {
+  const PointArrays& pt = body.point;
+  const ViscousArrays viscous{bond_weight_.data(), pt.x, pt.v, pt.h, pt.ratio, pt.viscous};
   for_blocks(
       threads, body.particles, [&](std::int64_t block, std::int64_t first, std::int64_t last) {
         double* internal = body.point.internal;
@@ -114,7 +95,7 @@ void KernelMethod::forces_in(Body& body, int threads) {
         internal_force<D>(operator_, body.point.p, first, last, internal);
         power_[block] = {hourglass_.active() ? hourglass_.add_force<D>(body, operator_, first, last)
                                              : 0.0};
-        viscous_force<D>(body, first, last);
+        viscous_force<D>(viscosity_, operator_, bond_rate_, viscous, first, last);
       });
   hourglass_.book(power_.total()[0], dt_);
 }

@@ -45,8 +45,6 @@ class KernelMethod : public Formulation {
   std::vector<double> setup_viscosity(const Body& body);
   template <int D>
   void forces_in(Body& body, int threads);
-  template <int D>
-  void viscous_force(Body& body, std::int64_t first, std::int64_t last) const;
 
   KernelGradient gradient_;
   BodyOperator operator_;
