@@ -9,22 +9,18 @@ namespace cleave::test {
 namespace {
 
 TEST_F(Arguments, RangesOutsideTheArrayAreRefused) {
-  const int64_t *R = b.row_begin.data(), *N = b.neighbour.data();
+  const cleave_network negative = with(&cleave_network::particles, -1);
   expect_refused(
       {{"cleave_displacement_gradient", "range -1 <= i < 3",
-        [&] {
-          return cleave_displacement_gradient(3, -1, 3, R, N, b.zeta.data(), b.volume.data(),
-                                              three.data(), nine.data());
-        }},
+        [&] { return cleave_displacement_gradient(&net, -1, 3, three.data(), nine.data()); }},
+       {"cleave_displacement_gradient", "27 entries",
+        [&] { return cleave_displacement_gradient(&net, 0, n + 1, three.data(), nine.data()); }},
        {"cleave_bond_force", "range 5 <= i < 4",
-        [&] {
-          return cleave_bond_force(3, 5, 4, R, N, b.reverse.data(), b.zeta.data(), nine.data(),
-                                   three.data());
-        }},
+        [&] { return cleave_bond_force(&net, 5, 4, nine.data(), three.data()); }},
        {"cleave_bond_viscosity", "range",
         [&] {
-          return cleave_bond_viscosity(3, 5, 4, R, N, b.reverse.data(), w.data(), three.data(),
-                                       three.data(), one.data(), 1, 1, three.data());
+          return cleave_bond_viscosity(&net, 5, 4, w.data(), three.data(), three.data(), one.data(),
+                                       1, 1, three.data());
         }},
        {"cleave_material_stress", "range",
         [&] {
@@ -32,9 +28,7 @@ TEST_F(Arguments, RangesOutsideTheArrayAreRefused) {
                                         nine.data(), nullptr, nullptr);
         }},
        {"cleave_cbm_count_bonds", "range",
-        [&] {
-          return cleave_cbm_count_bonds(3, -1, m, mesh.simplices.data(), b.row_begin.data());
-        }},
+        [&] { return cleave_cbm_count_bonds(&negative, m, mesh.simplices.data()); }},
        {"cleave_field_get_real", "27 entries",
         [&] { return cleave_field_get_real(ready, 0, "mass", 0, n + 1, one.data()); }},
        {"cleave_field_get_real", "range -1",
@@ -79,22 +73,26 @@ TEST_F(Arguments, EmptyRangesNeedNoArrays) {
 }
 
 TEST_F(Arguments, NumbersOutsideTheirRangeAreRefused) {
-  const int64_t *R = b.row_begin.data(), *N = b.neighbour.data();
+  const cleave_network line = with(&cleave_network::dimension, 1),
+                       hyper = with(&cleave_network::dimension, 4),
+                       base = with(&cleave_network::index_base, 2),
+                       other_base = with(&cleave_network::index_base, 1);
   const double inf = std::numeric_limits<double>::infinity(), nan = std::nan("");
   const double bad_nu[3] = {1190, 3.24e9, 0.5}, bad_rho[3] = {0, 3.24e9, 0.3},
                not_finite[3] = {1190, nan, 0.3};
   expect_refused(
       {{"cleave_cbm_count_bonds", "dimension is 1",
-        [&] { return cleave_cbm_count_bonds(1, n, m, mesh.simplices.data(), nullptr); }},
+        [&] { return cleave_cbm_count_bonds(&line, m, mesh.simplices.data()); }},
        {"cleave_displacement_gradient", "dimension is 4",
-        [&] {
-          return cleave_displacement_gradient(4, 0, n, R, N, b.zeta.data(), b.volume.data(),
-                                              three.data(), nine.data());
-        }},
+        [&] { return cleave_displacement_gradient(&hyper, 0, n, three.data(), nine.data()); }},
+       {"cleave_bond_force", "index_base is 2",
+        [&] { return cleave_bond_force(&base, 0, n, nine.data(), three.data()); }},
+       {"cleave_bond_force", "row_begin begins with 0, index_base is 1",
+        [&] { return cleave_bond_force(&other_base, 0, n, nine.data(), three.data()); }},
        {"cleave_bond_viscosity", "length is 0",
         [&] {
-          return cleave_bond_viscosity(3, 0, n, R, N, b.reverse.data(), w.data(), three.data(),
-                                       three.data(), one.data(), 1, 0, three.data());
+          return cleave_bond_viscosity(&net, 0, n, w.data(), three.data(), three.data(), one.data(),
+                                       1, 0, three.data());
         }},
        {"cleave_material_stress", "kinematics is 9",
         [&] {
@@ -168,8 +166,8 @@ TEST_F(Arguments, NumbersOutsideTheirRangeAreRefused) {
 
 TEST_F(Arguments, WrongDimensionLeavesTheOutputAlone) {
   std::vector<double> H(nine.size(), 7.0);
-  EXPECT_EQ(cleave_displacement_gradient(5, 0, n, b.row_begin.data(), b.neighbour.data(),
-                                         b.zeta.data(), b.volume.data(), three.data(), H.data()),
+  const cleave_network wrong = with(&cleave_network::dimension, 5);
+  EXPECT_EQ(cleave_displacement_gradient(&wrong, 0, n, three.data(), H.data()),
             CLEAVE_BAD_ARGUMENT);
   EXPECT_EQ(H, std::vector<double>(nine.size(), 7.0));
 }

@@ -36,6 +36,14 @@ class Arguments : public testing::Test {
   const SimplexMesh mesh = patch(3, 2, 1.0, 0.1, 71);
   const int64_t n = mesh.particles(), m = mesh.simplex_count();
   Bonds b{mesh};
+  // The network with one thing spoilt.
+  template <class Member, class Value>
+  cleave_network with(Member member, Value value_in) const {
+    cleave_network spoilt = b.network();
+    spoilt.*member = value_in;
+    return spoilt;
+  }
+  cleave_network net = b.network();
   Model fresh, ready;
   const double properties[3] = {1190, 3.24e9, 0.35};
   std::vector<double> three = std::vector<double>(static_cast<std::size_t>(3 * n), 0.0),

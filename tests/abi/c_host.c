@@ -38,15 +38,24 @@ static void array_calls(double* force) {
   double zeta[3 * HALF_BONDS], volume[PARTICLES];
   double u[3 * PARTICLES] = {0}, H[9 * PARTICLES], P[9 * PARTICLES], energy[PARTICLES];
   double c0 = 0;
+  cleave_network net;
   int64_t history = -1;
   int i;
-  OK(cleave_cbm_count_bonds(2, PARTICLES, SIMPLICES, kSimplices, row_begin));
+  OK(cleave_abi_check(CLEAVE_ABI_VERSION));
+  OK(cleave_network_init(&net));
+  net.dimension = 2;
+  net.particles = PARTICLES;
+  net.row_begin = row_begin;
+  net.neighbour = neighbour;
+  net.reverse = reverse;
+  net.zeta = zeta;
+  net.volume = volume;
+  OK(cleave_cbm_count_bonds(&net, SIMPLICES, kSimplices));
   REQUIRE(row_begin[PARTICLES] == HALF_BONDS); /* five edges */
-  OK(cleave_cbm_bonds(2, PARTICLES, kX, SIMPLICES, kSimplices, NULL, row_begin, neighbour, reverse,
-                      zeta, volume));
+  OK(cleave_cbm_bonds(&net, kX, SIMPLICES, kSimplices, NULL));
   REQUIRE(near(volume[0], 1.0 / 3, 1) && near(volume[1], 1.0 / 6, 1));
   for (i = 0; i < PARTICLES; ++i) u[3 * i] = kStretch * kX[3 * i];
-  OK(cleave_displacement_gradient(2, 0, PARTICLES, row_begin, neighbour, zeta, volume, u, H));
+  OK(cleave_displacement_gradient(&net, 0, PARTICLES, u, H));
   OK(cleave_material_history_count(CLEAVE_MATERIAL_svk, &history));
   REQUIRE(history == 0);
   OK(cleave_material_stress(CLEAVE_MATERIAL_svk, CLEAVE_PLANE_STRAIN, 3, kProperties, 0, PARTICLES,
@@ -59,7 +68,7 @@ static void array_calls(double* force) {
   OK(cleave_material_wave_speed(CLEAVE_MATERIAL_svk, CLEAVE_PLANE_STRAIN, 3, kProperties, &c0));
   REQUIRE(near(c0, sqrt(2.4e9 / 1000), c0));
   for (i = 0; i < 3 * PARTICLES; ++i) force[i] = 0;
-  OK(cleave_bond_force(2, 0, PARTICLES, row_begin, neighbour, reverse, zeta, P, force));
+  OK(cleave_bond_force(&net, 0, PARTICLES, P, force));
 }
 
 static void check_force(const double* force) {
@@ -129,7 +138,8 @@ static void model_run(const double* expected_force) {
 static void mistakes(void) {
   char text[16];
   int64_t length = 0;
-  REQUIRE(cleave_cbm_count_bonds(4, 1, 0, NULL, NULL) == CLEAVE_BAD_ARGUMENT);
+  REQUIRE(cleave_cbm_count_bonds(NULL, 0, NULL) == CLEAVE_NULL_ARGUMENT);
+  REQUIRE(cleave_abi_check(CLEAVE_ABI_VERSION - 1) == CLEAVE_ABI_MISMATCH);
   OK(cleave_last_message(text, (int64_t)sizeof text, &length));
   REQUIRE(strlen(text) == sizeof text - 1 && length > (int64_t)sizeof text);
   REQUIRE(strcmp(cleave_status_text(CLEAVE_OK), "no error") == 0);

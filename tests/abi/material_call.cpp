@@ -247,7 +247,7 @@ TEST(MaterialCallArguments, AreCheckedWithARemedy) {
   refused(CLEAVE_BAD_ARGUMENT, "length is", [](Call& c) { c.length = -2; });
   refused(CLEAVE_NULL_ARGUMENT, "'deformation'", [](Call& c) { c.deformation = nullptr; });
   refused(CLEAVE_NULL_ARGUMENT, "'history'", [](Call& c) { c.history = nullptr; });
-  refused(CLEAVE_BAD_ARGUMENT, "deformation_order[3] is 2",
+  refused(CLEAVE_BAD_ARGUMENT, "deformation_order[2] and [3] are both 2",
           [](Call& c) { c.deformation_order[3] = 2; });
   refused(CLEAVE_BAD_ARGUMENT, "stress_order[0] is 9", [](Call& c) { c.stress_order[0] = 9; });
   refused(CLEAVE_UNKNOWN_NAME, "j2_table", [](Call& c) { c.material = 4711; });

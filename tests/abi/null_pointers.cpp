@@ -6,78 +6,77 @@ namespace cleave::test {
 namespace {
 
 TEST_F(Arguments, NullIsRefusedForEveryPointerOfArrayCalls) {
-  const int64_t *S = mesh.simplices.data(), *R = b.row_begin.data(), *N = b.neighbour.data(),
-                *V = b.reverse.data();
-  const double *X = mesh.X.data(), *Z = b.zeta.data(), *O = b.volume.data(), *T = three.data(),
-               *P = nine.data(), *J = one.data(), *W = w.data();
-  int64_t *NN = b.neighbour.data(), *VV = b.reverse.data();
-  double *ZZ = b.zeta.data(), *OO = b.volume.data(), *F = three.data(), *H = nine.data();
+  const int64_t* S = mesh.simplices.data();
+  const double *X = mesh.X.data(), *T = three.data(), *P = nine.data(), *J = one.data(),
+               *W = w.data();
+  double *F = three.data(), *H = nine.data();
   const double* Q = properties;
-  std::vector<int64_t> rows(static_cast<std::size_t>(n + 1));
-  const auto count_bonds = [&](const int64_t* s, int64_t* r) {
-    return cleave_cbm_count_bonds(3, n, m, s, r);
-  };
-  const auto bonds = [&](const double* x, const int64_t* s, const int64_t* r, int64_t* nb,
-                         int64_t* rv, double* z, double* v) {
-    return cleave_cbm_bonds(3, n, x, m, s, nullptr, r, nb, rv, z, v);
-  };
-  const auto gradient = [&](const int64_t* r, const int64_t* nb, const double* z, const double* v,
-                            const double* u, double* h) {
-    return cleave_displacement_gradient(3, 0, n, r, nb, z, v, u, h);
-  };
-  const auto force = [&](const int64_t* r, const int64_t* nb, const int64_t* rv, const double* z,
-                         const double* p,
-                         double* f) { return cleave_bond_force(3, 0, n, r, nb, rv, z, p, f); };
-  const auto viscosity = [&](const int64_t* r, const int64_t* nb, const int64_t* rv,
-                             const double* ww, const double* x, const double* v, const double* j,
-                             double* f) {
-    return cleave_bond_viscosity(3, 0, n, r, nb, rv, ww, x, v, j, 1, 1, f);
+  int64_t* const no_integers = nullptr;
+  double* const no_reals = nullptr;
+  const cleave_network no_rows = with(&cleave_network::row_begin, no_integers),
+                       no_neighbours = with(&cleave_network::neighbour, no_integers),
+                       no_reverse = with(&cleave_network::reverse, no_integers),
+                       no_zeta = with(&cleave_network::zeta, no_reals),
+                       no_volume = with(&cleave_network::volume, no_reals);
+  const auto viscosity = [&](const cleave_network* g, const double* ww, const double* x,
+                             const double* v, const double* j, double* f) {
+    return cleave_bond_viscosity(g, 0, n, ww, x, v, j, 1, 1, f);
   };
   const auto stress_of = [&](const double* q, const double* h, double* p) {
     return cleave_material_stress(CLEAVE_MATERIAL_svk, CLEAVE_3D, 3, q, 0, n, h, nullptr, p,
                                   nullptr, nullptr);
   };
   expect_refused(
-      {{"cleave_cbm_count_bonds", "'simplices'", [&] { return count_bonds(nullptr, rows.data()); }},
-       {"cleave_cbm_count_bonds", "'row_begin'", [&] { return count_bonds(S, nullptr); }},
-       {"cleave_cbm_bonds", "'X'", [&] { return bonds(nullptr, S, R, NN, VV, ZZ, OO); }},
-       {"cleave_cbm_bonds", "'simplices'", [&] { return bonds(X, nullptr, R, NN, VV, ZZ, OO); }},
-       {"cleave_cbm_bonds", "'row_begin'", [&] { return bonds(X, S, nullptr, NN, VV, ZZ, OO); }},
-       {"cleave_cbm_bonds", "'neighbour'", [&] { return bonds(X, S, R, nullptr, VV, ZZ, OO); }},
-       {"cleave_cbm_bonds", "'reverse'", [&] { return bonds(X, S, R, NN, nullptr, ZZ, OO); }},
-       {"cleave_cbm_bonds", "'zeta'", [&] { return bonds(X, S, R, NN, VV, nullptr, OO); }},
-       {"cleave_cbm_bonds", "'volume'", [&] { return bonds(X, S, R, NN, VV, ZZ, nullptr); }},
-       {"cleave_displacement_gradient", "'row_begin'",
-        [&] { return gradient(nullptr, N, Z, O, T, H); }},
-       {"cleave_displacement_gradient", "'neighbour'",
-        [&] { return gradient(R, nullptr, Z, O, T, H); }},
-       {"cleave_displacement_gradient", "'zeta'", [&] { return gradient(R, N, nullptr, O, T, H); }},
-       {"cleave_displacement_gradient", "'volume'",
-        [&] { return gradient(R, N, Z, nullptr, T, H); }},
-       {"cleave_displacement_gradient", "'u'", [&] { return gradient(R, N, Z, O, nullptr, H); }},
-       {"cleave_displacement_gradient", "'H'", [&] { return gradient(R, N, Z, O, T, nullptr); }},
-       {"cleave_bond_force", "'row_begin'", [&] { return force(nullptr, N, V, Z, P, F); }},
-       {"cleave_bond_force", "'neighbour'", [&] { return force(R, nullptr, V, Z, P, F); }},
-       {"cleave_bond_force", "'reverse'", [&] { return force(R, N, nullptr, Z, P, F); }},
-       {"cleave_bond_force", "'zeta'", [&] { return force(R, N, V, nullptr, P, F); }},
-       {"cleave_bond_force", "'P'", [&] { return force(R, N, V, Z, nullptr, F); }},
-       {"cleave_bond_force", "'f'", [&] { return force(R, N, V, Z, P, nullptr); }},
-       {"cleave_bond_viscosity", "'row_begin'",
-        [&] { return viscosity(nullptr, N, V, W, T, T, J, F); }},
-       {"cleave_bond_viscosity", "'neighbour'",
-        [&] { return viscosity(R, nullptr, V, W, T, T, J, F); }},
-       {"cleave_bond_viscosity", "'reverse'",
-        [&] { return viscosity(R, N, nullptr, W, T, T, J, F); }},
-       {"cleave_bond_viscosity", "'w'", [&] { return viscosity(R, N, V, nullptr, T, T, J, F); }},
-       {"cleave_bond_viscosity", "'x'", [&] { return viscosity(R, N, V, W, nullptr, T, J, F); }},
-       {"cleave_bond_viscosity", "'v'", [&] { return viscosity(R, N, V, W, T, nullptr, J, F); }},
-       {"cleave_bond_viscosity", "'J'", [&] { return viscosity(R, N, V, W, T, T, nullptr, F); }},
-       {"cleave_bond_viscosity", "'f'", [&] { return viscosity(R, N, V, W, T, T, J, nullptr); }},
+      {{"cleave_network_init", "'network'", [&] { return cleave_network_init(nullptr); }},
+       {"cleave_cbm_count_bonds", "'network'",
+        [&] { return cleave_cbm_count_bonds(nullptr, m, S); }},
+       {"cleave_cbm_count_bonds", "'simplices'",
+        [&] { return cleave_cbm_count_bonds(&net, m, nullptr); }},
+       {"cleave_cbm_count_bonds", "row_begin'",
+        [&] { return cleave_cbm_count_bonds(&no_rows, m, S); }},
+       {"cleave_cbm_bonds", "'network'",
+        [&] { return cleave_cbm_bonds(nullptr, X, m, S, nullptr); }},
+       {"cleave_cbm_bonds", "'X'", [&] { return cleave_cbm_bonds(&net, nullptr, m, S, nullptr); }},
+       {"cleave_cbm_bonds", "'simplices'",
+        [&] { return cleave_cbm_bonds(&net, X, m, nullptr, nullptr); }},
+       {"cleave_cbm_bonds", "row_begin'",
+        [&] { return cleave_cbm_bonds(&no_rows, X, m, S, nullptr); }},
+       {"cleave_cbm_bonds", "neighbour'",
+        [&] { return cleave_cbm_bonds(&no_neighbours, X, m, S, nullptr); }},
+       {"cleave_cbm_bonds", "reverse'",
+        [&] { return cleave_cbm_bonds(&no_reverse, X, m, S, nullptr); }},
+       {"cleave_cbm_bonds", "zeta'", [&] { return cleave_cbm_bonds(&no_zeta, X, m, S, nullptr); }},
+       {"cleave_cbm_bonds", "volume'",
+        [&] { return cleave_cbm_bonds(&no_volume, X, m, S, nullptr); }},
+       {"cleave_displacement_gradient", "'network'",
+        [&] { return cleave_displacement_gradient(nullptr, 0, n, T, H); }},
+       {"cleave_displacement_gradient", "zeta'",
+        [&] { return cleave_displacement_gradient(&no_zeta, 0, n, T, H); }},
+       {"cleave_displacement_gradient", "'u'",
+        [&] { return cleave_displacement_gradient(&net, 0, n, nullptr, H); }},
+       {"cleave_displacement_gradient", "'H'",
+        [&] { return cleave_displacement_gradient(&net, 0, n, T, nullptr); }},
+       {"cleave_bond_force", "'network'", [&] { return cleave_bond_force(nullptr, 0, n, P, F); }},
+       {"cleave_bond_force", "reverse'",
+        [&] { return cleave_bond_force(&no_reverse, 0, n, P, F); }},
+       {"cleave_bond_force", "'P'", [&] { return cleave_bond_force(&net, 0, n, nullptr, F); }},
+       {"cleave_bond_force", "'f'", [&] { return cleave_bond_force(&net, 0, n, P, nullptr); }},
+       {"cleave_bond_viscosity", "'network'", [&] { return viscosity(nullptr, W, T, T, J, F); }},
+       {"cleave_bond_viscosity", "neighbour'",
+        [&] { return viscosity(&no_neighbours, W, T, T, J, F); }},
+       {"cleave_bond_viscosity", "'w'", [&] { return viscosity(&net, nullptr, T, T, J, F); }},
+       {"cleave_bond_viscosity", "'x'", [&] { return viscosity(&net, W, nullptr, T, J, F); }},
+       {"cleave_bond_viscosity", "'v'", [&] { return viscosity(&net, W, T, nullptr, J, F); }},
+       {"cleave_bond_viscosity", "'J'", [&] { return viscosity(&net, W, T, T, nullptr, F); }},
+       {"cleave_bond_viscosity", "'f'", [&] { return viscosity(&net, W, T, T, J, nullptr); }},
        {"cleave_material_stress", "'properties'", [&] { return stress_of(nullptr, P, H); }},
        {"cleave_material_stress", "'H'", [&] { return stress_of(Q, nullptr, H); }},
        {"cleave_material_stress", "'P'", [&] { return stress_of(Q, P, nullptr); }},
        {"cleave_material_history_count", "'count'",
         [&] { return cleave_material_history_count(CLEAVE_MATERIAL_svk, nullptr); }},
+       {"cleave_material_damage_place", "'place'",
+        [&] { return cleave_material_damage_place(CLEAVE_MATERIAL_svk, nullptr); }},
+       {"cleave_set_last_message", "'text'", [] { return cleave_set_last_message(nullptr); }},
        {"cleave_material_wave_speed", "'properties'",
         [&] { return cleave_material_wave_speed(1, CLEAVE_3D, 3, nullptr, &real); }},
        {"cleave_material_wave_speed", "'speed'",

@@ -27,7 +27,7 @@ void bad_calls() {
   cleave_model* none = nullptr;
   EXPECT_NE(cleave_model_create(-1, &none), CLEAVE_OK);
   EXPECT_NE(cleave_model_update(none), CLEAVE_OK);
-  EXPECT_NE(cleave_cbm_count_bonds(2, int64_t{1} << 60, 0, nullptr, nullptr), CLEAVE_OK);
+  EXPECT_NE(cleave_cbm_count_bonds(nullptr, 0, nullptr), CLEAVE_OK);
   Model model;
   model.add({}, patch(3, 2, 0.01, 0.1, 122));
   EXPECT_NE(cleave_body_set_real(model, 0, "no", "such", 1), CLEAVE_OK);
@@ -56,7 +56,11 @@ TEST(Silence, HugeCountsAreAnswered) {
 #endif
   int64_t rows[2] = {};
   for (const int64_t particles : {int64_t{1} << 45, int64_t{1} << 60, INT64_MAX}) {
-    const int32_t status = cleave_cbm_count_bonds(2, particles, 0, nullptr, rows);
+    cleave_network net;
+    ok(cleave_network_init(&net));
+    net.particles = particles;
+    net.row_begin = rows;
+    const int32_t status = cleave_cbm_count_bonds(&net, 0, nullptr);
     EXPECT_EQ(status, CLEAVE_OUT_OF_MEMORY);
   }
 }

@@ -78,10 +78,9 @@ void report(benchmark::State& state, std::int64_t particles, std::int64_t half_b
 void displacement_gradient(benchmark::State& state) {
   Problem& p = problem(state.range(0));
   const Bonds& b = p.bonds;
+  const cleave_network net = b.network();
   for (auto _ : state) {
-    check(cleave_displacement_gradient(b.mesh.dimension, 0, p.n, b.row_begin.data(),
-                                       b.neighbour.data(), b.zeta.data(), b.volume.data(),
-                                       p.u.data(), p.H.data()));
+    check(cleave_displacement_gradient(&net, 0, p.n, p.u.data(), p.H.data()));
     benchmark::ClobberMemory();
   }
   report(state, p.n, b.half_bonds());
@@ -90,9 +89,9 @@ void displacement_gradient(benchmark::State& state) {
 void bond_force(benchmark::State& state) {
   Problem& p = problem(state.range(0));
   const Bonds& b = p.bonds;
+  const cleave_network net = b.network();
   for (auto _ : state) {
-    check(cleave_bond_force(b.mesh.dimension, 0, p.n, b.row_begin.data(), b.neighbour.data(),
-                            b.reverse.data(), b.zeta.data(), p.stress.P.data(), p.f.data()));
+    check(cleave_bond_force(&net, 0, p.n, p.stress.P.data(), p.f.data()));
     benchmark::ClobberMemory();
   }
   report(state, p.n, b.half_bonds());
@@ -101,10 +100,10 @@ void bond_force(benchmark::State& state) {
 void bond_viscosity(benchmark::State& state) {
   Problem& p = problem(state.range(0));
   const Bonds& b = p.bonds;
+  const cleave_network net = b.network();
   for (auto _ : state) {
-    check(cleave_bond_viscosity(b.mesh.dimension, 0, p.n, b.row_begin.data(), b.neighbour.data(),
-                                b.reverse.data(), p.w.data(), p.x.data(), p.v.data(), p.J.data(),
-                                1.0, kSpacing, p.f.data()));
+    check(cleave_bond_viscosity(&net, 0, p.n, p.w.data(), p.x.data(), p.v.data(), p.J.data(), 1.0,
+                                kSpacing, p.f.data()));
     benchmark::ClobberMemory();
   }
   report(state, p.n, b.half_bonds());
@@ -126,12 +125,11 @@ void svk_stress(benchmark::State& state) {
 
 // Bond vectors and volumes of the whole mesh: the cost of set-up and of a restart.
 void cbm_bonds(benchmark::State& state) {
-  Bonds& b = problem(state.range(0)).bonds;
+  const Bonds& b = problem(state.range(0)).bonds;
+  const cleave_network net = b.network();
   for (auto _ : state) {
-    check(cleave_cbm_bonds(b.mesh.dimension, b.mesh.particles(), b.mesh.X.data(),
-                           b.mesh.simplex_count(), b.mesh.simplices.data(), nullptr,
-                           b.row_begin.data(), b.neighbour.data(), b.reverse.data(), b.zeta.data(),
-                           b.volume.data()));
+    check(cleave_cbm_bonds(&net, b.mesh.X.data(), b.mesh.simplex_count(), b.mesh.simplices.data(),
+                           nullptr));
     benchmark::ClobberMemory();
   }
   report(state, b.mesh.particles(), b.half_bonds());

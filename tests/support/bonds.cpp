@@ -26,15 +26,29 @@ Bonds::Bonds(const SimplexMesh& m, std::vector<std::int32_t> alive_in)
   alive.resize(at(mesh.simplex_count()), 1);
   const std::int64_t n = mesh.particles();
   row_begin.resize(at(n + 1));
-  check(cleave_cbm_count_bonds(mesh.dimension, n, mesh.simplex_count(), mesh.simplices.data(),
-                               row_begin.data()));
+  const cleave_network counted = network();
+  check(cleave_cbm_count_bonds(&counted, mesh.simplex_count(), mesh.simplices.data()));
   neighbour.resize(at(half_bonds()));
   reverse.resize(at(half_bonds()));
   zeta.resize(at(3 * half_bonds()));
   volume.resize(at(n));
-  check(cleave_cbm_bonds(mesh.dimension, n, mesh.X.data(), mesh.simplex_count(),
-                         mesh.simplices.data(), alive.data(), row_begin.data(), neighbour.data(),
-                         reverse.data(), zeta.data(), volume.data()));
+  const cleave_network whole = network();
+  check(cleave_cbm_bonds(&whole, mesh.X.data(), mesh.simplex_count(), mesh.simplices.data(),
+                         alive.data()));
+}
+
+cleave_network Bonds::network() const {
+  cleave_network n;
+  check(cleave_network_init(&n));
+  n.dimension = mesh.dimension;
+  n.particles = mesh.particles();
+  // The interface fills and reads networks by the same struct.
+  n.row_begin = const_cast<std::int64_t*>(row_begin.data());
+  n.neighbour = const_cast<std::int64_t*>(neighbour.data());
+  n.reverse = const_cast<std::int64_t*>(reverse.data());
+  n.zeta = const_cast<double*>(zeta.data());
+  n.volume = const_cast<double*>(volume.data());
+  return n;
 }
 
 std::vector<double> Bonds::weights() const {
@@ -49,16 +63,15 @@ std::vector<double> Bonds::weights() const {
 
 std::vector<double> Bonds::gradient(const std::vector<double>& u) const {
   std::vector<double> h(9 * volume.size());
-  check(cleave_displacement_gradient(mesh.dimension, 0, mesh.particles(), row_begin.data(),
-                                     neighbour.data(), zeta.data(), volume.data(), u.data(),
-                                     h.data()));
+  const cleave_network n = network();
+  check(cleave_displacement_gradient(&n, 0, n.particles, u.data(), h.data()));
   return h;
 }
 
 std::vector<double> Bonds::force(const std::vector<double>& P) const {
   std::vector<double> f(3 * volume.size(), 0.0);
-  check(cleave_bond_force(mesh.dimension, 0, mesh.particles(), row_begin.data(), neighbour.data(),
-                          reverse.data(), zeta.data(), P.data(), f.data()));
+  const cleave_network n = network();
+  check(cleave_bond_force(&n, 0, n.particles, P.data(), f.data()));
   return f;
 }
 

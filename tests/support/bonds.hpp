@@ -22,6 +22,9 @@ struct Bonds {
   // (3,n) force of a stress (9,n)
   std::vector<double> force(const std::vector<double>& P) const;
 
+  // View of the arrays below.
+  cleave_network network() const;
+
   SimplexMesh mesh;
   std::vector<std::int32_t> alive;  // (m)
   std::vector<std::int64_t> row_begin, neighbour, reverse;

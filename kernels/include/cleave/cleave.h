@@ -38,8 +38,8 @@ extern "C" {
 #define CLEAVE_API __attribute__((visibility("default")))
 #endif
 
-/* Number of this interface; given to cleave_model_create and checked there. */
-#define CLEAVE_ABI_VERSION 1
+/* Number of this interface; given to cleave_model_create or cleave_abi_check and checked there. */
+#define CLEAVE_ABI_VERSION 2
 
 enum cleave_status {
 #define CLEAVE_STATUS(name, value, text) CLEAVE_##name = value,
@@ -98,14 +98,36 @@ enum cleave_motion {
   CLEAVE_MOTION_EXACT = 2         /* position given: no drift, exact energy audit */
 };
 
+/* What a material call hands out. sigma: Cauchy stress; R: rotation of the polar decomposition F = R U. */
+enum cleave_stress_measure {
+  CLEAVE_STRESS_FIRST_PIOLA = 0,  /* P, not symmetric */
+  CLEAVE_STRESS_SECOND_PIOLA = 1, /* S = F^-1 P */
+  CLEAVE_STRESS_CAUCHY = 2,       /* sigma = P F^T / J */
+  CLEAVE_STRESS_COROTATED = 3,    /* R^T sigma R */
+  CLEAVE_STRESS_KIRCHHOFF = 4     /* tau = J sigma */
+};
+enum cleave_tangent_measure {
+  CLEAVE_TANGENT_FIRST_PIOLA = 0,  /* dP/dF */
+  CLEAVE_TANGENT_SECOND_PIOLA = 1, /* dS/dE, E Green-Lagrange strain */
+  CLEAVE_TANGENT_JAUMANN = 2,      /* of the Jaumann rate of tau to the stretching, divided by J */
+  CLEAVE_TANGENT_COROTATED = 3     /* the same with all four indices turned back by R */
+};
+
 /* ---------------------------------------------------------------- messages and tables ---- */
 
 /* Library version "major.minor.patch". */
 CLEAVE_API const char* cleave_version(void);
 
+/* ABI_MISMATCH unless abi is this library's CLEAVE_ABI_VERSION: for hosts that make array calls only.
+ * [in] abi: CLEAVE_ABI_VERSION as the caller knows it. */
+CLEAVE_API int32_t cleave_abi_check(int32_t abi);
+
 /* Last message of this thread, copied with a terminating NUL, cut to `capacity` bytes.
  * [out] length (may be NULL): full length without the NUL. */
 CLEAVE_API int32_t cleave_last_message(char* text, int64_t capacity, int64_t* length);
+
+/* Sets the last message of this thread; for layers in other languages that check before they call. */
+CLEAVE_API int32_t cleave_set_last_message(const char* text);
 
 /* Text of a status code from the table; "unknown status" otherwise. */
 CLEAVE_API const char* cleave_status_text(int32_t status);
@@ -170,58 +192,64 @@ CLEAVE_API int32_t cleave_field_table_fingerprint(uint64_t* fingerprint);
 
 /* ---------------------------------------------------------------- array calls ---- */
 
-/* Bonds of a simplex mesh, sorted by neighbour index in every row.
- * [in]  dimension               2 or 3
- * [in]  simplices (dim+1,m)     0-based particle indices
- * [out] row_begin (n+1)         half-bonds of particle i are row_begin[i] <= b < row_begin[i+1]
- * row_begin[n] is the number of half-bonds; allocate the arrays of cleave_cbm_bonds with it. */
-CLEAVE_API int32_t cleave_cbm_count_bonds(int32_t dimension, int64_t particles,
-                                          int64_t simplex_count, const int64_t* simplices,
-                                          int64_t* row_begin);
+/* The bonds of a body as a view of the caller's arrays, and the layout of his other arrays: component
+ * c of the vector of particle i stands at v[i * vector_point + c * vector_component], in doubles; so
+ * for tensors. The arrays of this struct itself are never strided. */
+typedef struct cleave_network {
+  int64_t size;
+  int32_t dimension;  /* 2 or 3 */
+  int32_t index_base; /* 0; 1: row_begin, neighbour, reverse and simplices count from 1 */
+  int64_t particles;  /* n */
+  int64_t* row_begin; /* (n+1) half-bonds of particle i are row_begin[i] <= b < row_begin[i+1] */
+  int64_t* neighbour; /* (h) particle at the other end, ascending in a row */
+  int64_t* reverse;   /* (h) the same bond seen from the other end */
+  double* zeta;       /* (3,h) bond vector, reference configuration [m2] (2D: [m]) */
+  double* volume;     /* (n) averaging volume [m3] (2D: [m2]) */
+  int64_t vector_point, vector_component; /* X u x v f: default 3, 1 is a(3,n); a(n,3) is 1, n */
+  int64_t tensor_point, tensor_component; /* H P: default 9, 1 is a(9,n); a(n,9) is 1, n */
+} cleave_network;
+/* Three dimensions, index base 0, default layouts; pointers NULL. */
+CLEAVE_API int32_t cleave_network_init(cleave_network* network);
 
-/* Bond vectors and averaging volumes from the live simplices.            [CBM 1, 4-9]
+/* Counts the bonds of a simplex mesh into network->row_begin: h = row_begin[n] - row_begin[0]
+ * half-bonds; allocate the other arrays of the network with it.
+ * [in] simplices (dim+1,m)   particles */
+CLEAVE_API int32_t cleave_cbm_count_bonds(const cleave_network* network, int64_t simplex_count,
+                                          const int64_t* simplices);
+
+/* Bond vectors and averaging volumes from the live simplices, into the arrays of the network.
+ *                                                                          [CBM 1, 4-9]
  * [in]  X (3,n)        reference position [m]
  * [in]  alive (m)      0: the simplex is deleted; NULL: all live
- * [in]  row_begin      from cleave_cbm_count_bonds
- * [out] neighbour (h)  particle at the other end
- * [out] reverse (h)    index of the same bond seen from the other end
- * [out] zeta (3,h)     bond vector, reference configuration [m2] (2D: [m])
- * [out] volume (n)     averaging volume [m3] (2D: [m2])
  * Errors: BAD_SIMPLEX (volume not above 1e-12 of the cube of its longest edge; orientation is
  * free). */
-CLEAVE_API int32_t cleave_cbm_bonds(int32_t dimension, int64_t particles, const double* X,
+CLEAVE_API int32_t cleave_cbm_bonds(const cleave_network* network, const double* X,
                                     int64_t simplex_count, const int64_t* simplices,
-                                    const int32_t* alive, const int64_t* row_begin,
-                                    int64_t* neighbour, int64_t* reverse, double* zeta,
-                                    double* volume);
+                                    const int32_t* alive);
 
 /* Displacement gradient H = F - I of particles first..last.                    [CBM 8]
  * [in]  u (3,n)   displacement [m]
  * [out] H (9,n)   rows first..last are set; H33 = 0 in two dimensions; zero where volume is zero */
-CLEAVE_API int32_t cleave_displacement_gradient(int32_t dimension, int64_t first, int64_t last,
-                                                const int64_t* row_begin, const int64_t* neighbour,
-                                                const double* zeta, const double* volume,
-                                                const double* u, double* H);
+CLEAVE_API int32_t cleave_displacement_gradient(const cleave_network* network, int64_t first,
+                                                int64_t last, const double* u, double* H);
 
 /* Force of the bonds on particles first..last: sum_p (P_i zeta_ip - P_p zeta_pi).   [CBM 18, 19]
  * [in]     P (9,n)   first Piola-Kirchhoff stress [Pa]
  * [in,out] f (3,n)   force [N], added to, not set */
-CLEAVE_API int32_t cleave_bond_force(int32_t dimension, int64_t first, int64_t last,
-                                     const int64_t* row_begin, const int64_t* neighbour,
-                                     const int64_t* reverse, const double* zeta, const double* P,
-                                     double* f);
+CLEAVE_API int32_t cleave_bond_force(const cleave_network* network, int64_t first, int64_t last,
+                                     const double* P, double* f);
 
 /* Artificial viscosity with frozen bond weights on particles first..last, see cleave_parameter_get
  * ("viscosity") for the forms of the model.                                     [CBM 21, 22]
+ * [in]     w (h)       zeta_ip . X_ip [m3]
  * [in]     x, v (3,n)  position, velocity     [in] J (n) volume ratio det F
- * [in]     w (h)       zeta_ip . X_ip [m3]    [in] coefficient  beta l_c rho0 c0 [Pa s]
+ * [in]     coefficient beta rho0 c0 [Pa s m-1]
  * [in]     length      l_c of the regularisation [m]
  * [in,out] f (3,n)     force [N], added to */
-CLEAVE_API int32_t cleave_bond_viscosity(int32_t dimension, int64_t first, int64_t last,
-                                         const int64_t* row_begin, const int64_t* neighbour,
-                                         const int64_t* reverse, const double* w, const double* x,
-                                         const double* v, const double* J, double coefficient,
-                                         double length, double* f);
+CLEAVE_API int32_t cleave_bond_viscosity(const cleave_network* network, int64_t first, int64_t last,
+                                         const double* w, const double* x, const double* v,
+                                         const double* J, double coefficient, double length,
+                                         double* f);
 
 /* Stress and energy density of a material law, points first..last.
  * [in]     properties        in the order of cleave_parameter_get(material name)
@@ -238,11 +266,17 @@ CLEAVE_API int32_t cleave_material_stress(int32_t material, int32_t kinematics,
                                           int32_t* failed);
 CLEAVE_API int32_t cleave_material_history_count(int32_t material, int64_t* count);
 
-/* A material update in the layout of the host, served where it stands: a(9,n), a(n,9), padded leading
- * dimensions, other orders of components.  Component c of point q of an array stands at
- * base[point * q + component * c], strides counted in entries.  `order`: the place c, 0 to 8, of
+/* The place in a point's history of the variable that is 1 where the law calls the material failed and
+ * below 1 before (Johnson-Cook damage), so that a host can erode the point.  [out] place: 0-based; -1 if
+ * the law has none. */
+CLEAVE_API int32_t cleave_material_damage_place(int32_t material, int64_t* place);
+
+/* A material update in the layout, component order and stress measure of the host, served where it
+ * stands: a(9,n), a(n,9), padded leading dimensions. Component c of point q of an array stands at
+ * base[point * q + component * c], strides counted in entries.  `order`: the places c, 0 to 8, of
  * 11 21 31 12 22 32 13 23 33 in this order; for an array that holds 11 22 33 12 23 31 21 32 13 that
- * is 0 6 5 3 1 7 8 4 2.  Every array has all nine places, also in two dimensions. */
+ * is 0 6 5 3 1 7 8 4 2.  A symmetric tensor names the same place twice: 11 22 33 12 23 31 is
+ * 0 3 5 3 1 4 5 4 2.  -1: the array lacks the component; read as zero (of F and of H), not written. */
 typedef struct cleave_material_call {
   int64_t size;
   int32_t material;          /* enum cleave_material */
@@ -251,35 +285,48 @@ typedef struct cleave_material_call {
   const double* properties;  /* in the order of cleave_parameter_get */
   int64_t first, last;       /* points first <= q < last */
   double dt;                 /* size of the step [s]; 0: statics, no rates */
-  double length;             /* size of a particle, for laws with shock viscosity [m] */
+  double length;             /* size of a particle, for laws with shock viscosity [m] ... */
+  const double* lengths;     /* ... or, if not NULL, of every point [m] */
+  int64_t length_point;      /* default 1 */
   const double* deformation; /* H = F - I, which keeps the digits of small strains, or F [1] */
   int32_t deformation_is_F;  /* 0: H, 1: F */
-  int32_t reserved;
+  int32_t stress_measure;    /* enum cleave_stress_measure; default first Piola-Kirchhoff */
   int64_t deformation_point, deformation_component; /* default 9, 1 */
   int64_t deformation_order[9];                     /* default 0 ... 8 */
   double* history; /* in, out; variables one after another; NULL if the law has none */
   int64_t history_point, history_component; /* default 0 (as many as the law has), 1 */
-  double* stress;                           /* out: first Piola-Kirchhoff stress P [Pa] */
+  double* stress;                           /* out [Pa] */
   int64_t stress_point, stress_component;   /* default 9, 1 */
-  int64_t stress_order[9];                  /* default 0 ... 8 */
+  int64_t
+      stress_order[9];   /* default 0 ... 8; no place twice for the first Piola-Kirchhoff stress */
   double* energy;        /* out: stored, per reference volume [J m-3]; may be NULL */
   int64_t energy_point;  /* default 1 */
   double* plastic;       /* out: dissipated by plastic flow in this update [J m-3]; may be NULL */
   int64_t plastic_point; /* default 1 */
+  double*
+      viscous; /* out: dissipated by the law's own viscosity in this update [J m-3]; may be NULL */
+  int64_t viscous_point; /* default 1 */
   int32_t* failed;       /* out: 1 where the law has no answer; may be NULL */
   int64_t failed_point;  /* default 1 */
-  double* tangent;       /* out, cleave_material_tangent: dP_a/dF_b at place a + 9 b [Pa] */
+  /* out, cleave_material_tangent [Pa]: the derivative of component a to component b at place
+   * a + m b, a and b places as above: a of stress_order; b of deformation_order for dP/dF, of
+   * stress_order for the others; m the largest place of stress_order plus one (9, symmetric 6). The
+   * strain of a symmetric measure is engineering strain in this sense: entry ab is C_ijkl. */
+  double* tangent;
   int64_t tangent_point, tangent_component; /* default 81, 1 */
+  int32_t tangent_measure;                  /* enum cleave_tangent_measure; default dP/dF */
+  int32_t reserved;
 } cleave_material_call;
 /* Defaults: contiguous arrays in the order of this interface, all pointers NULL. */
 CLEAVE_API int32_t cleave_material_call_init(cleave_material_call* call);
-/* Stress, energies and history of the points.  Where the law has no answer P and energies are zero,
+/* Stress, energies and history of the points.  Where the law has no answer stress and energies are zero,
  * the history untouched and failed 1; BAD_JACOBIAN is returned after all points have been done.
  * A point gets the same bits for any layout and range. */
 CLEAVE_API int32_t cleave_material_update(const cleave_material_call* call);
-/* Consistent tangent of the step from the history, which is left alone; stress, energy and plastic
- * are not used.  In two dimensions the in-plane components, with P33 = 0 kept in plane stress; the
- * others are zero.  Call it before cleave_material_update. */
+/* Consistent tangent of the step from the history, which is left alone; stress, energy and
+ * dissipation are not used.  In two dimensions the in-plane components, with P33 = 0 kept in plane
+ * stress; the others are zero; measures other than dP/dF need CLEAVE_3D.  Call it before
+ * cleave_material_update. */
 CLEAVE_API int32_t cleave_material_tangent(const cleave_material_call* call);
 
 /* Longitudinal wave speed of the undeformed material (plane stress: plate speed) [m s-1]. */

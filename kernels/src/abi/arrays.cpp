@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "abi/checks.hpp"
+#include "abi/host_arrays.hpp"
 #include "core/gradient_operator.hpp"
 #include "core/ramp.hpp"
 #include "formulation/cbm/bonds.hpp"
@@ -13,119 +14,203 @@ using namespace cleave::abi;
 
 namespace {
 
-using HostOperator = GradientOperator<std::int64_t, std::int64_t>;
+const cleave_network& checked(const cleave_network* network) {
+  const cleave_network& n = required(network, "network");
+  if (n.size != static_cast<int64_t>(sizeof(cleave_network))) {
+    throw Error(CLEAVE_ABI_MISMATCH,
+                text("cleave_network has size ", n.size, ", this library expects ",
+                     sizeof(cleave_network), "; call cleave_network_init first"));
+  }
+  check_dimension(n.dimension);
+  if (n.index_base != 0 && n.index_base != 1)
+    throw Error(CLEAVE_BAD_ARGUMENT, text("index_base is ", n.index_base, "; allowed: 0, 1"));
+  check_rows(0, n.particles);
+  required(n.row_begin, "network row_begin");
+  return n;
+}
+
+// A network that is complete, and a range of its particles.
+HostOperator host_operator(const cleave_network* network, int64_t first, int64_t last) {
+  const cleave_network& n = checked(network);
+  check_range(first, last, n.particles);
+  required(n.neighbour, "network neighbour");
+  required(n.reverse, "network reverse");
+  required(n.zeta, "network zeta");
+  required(n.volume, "network volume");
+  if (n.row_begin[0] != n.index_base) {
+    throw Error(CLEAVE_BAD_ARGUMENT,
+                text("row_begin begins with ", n.row_begin[0], ", index_base is ", n.index_base,
+                     "; fill the network by cleave_cbm_count_bonds with the same index_base"));
+  }
+  return {n.row_begin, n.neighbour, n.reverse, n.zeta, n.volume, n.index_base};
+}
+
+template <bool Packed, class Real>
+HostVectors<Real, Packed> vectors(const cleave_network& n, Real* base) {
+  return {base, n.vector_point, n.vector_component};
+}
+template <bool Packed, class Real>
+HostTensors<Real, Packed> tensors(const cleave_network& n, Real* base) {
+  return {base, n.tensor_point, n.tensor_component};
+}
+
+// f(dimension, whether the arrays stand in our layout), both known when compiled.
+template <class F>
+void with_shape(const cleave_network& n, const F& f) {
+  const bool packed = n.vector_point == kVector && n.vector_component == 1 &&
+                      n.tensor_point == kTensor && n.tensor_component == 1;
+  with_dimension(n.dimension, [&](auto d) {
+    if (packed) {
+      f(d, std::true_type{});
+    } else {
+      f(d, std::false_type{});
+    }
+  });
+}
+
+// Simplices counted from 0.
+std::vector<int64_t> zero_based(const cleave_network& n, int64_t simplex_count,
+                                const int64_t* simplices) {
+  check_rows(0, simplex_count);
+  if (simplex_count > 0) required(simplices, "simplices");
+  std::vector<int64_t> out(simplices, simplices + simplex_count * (n.dimension + 1));
+  for (int64_t& particle : out) particle -= n.index_base;
+  return out;
+}
+
+// (3,n) from the caller's layout.
+std::vector<double> packed(const cleave_network& n, const double* X) {
+  const auto array = vectors<false>(n, X);
+  std::vector<double> out(static_cast<std::size_t>(kVector * n.particles), 0.0);
+  for (int64_t i = 0; i < n.particles; ++i)
+    for (int c = 0; c < n.dimension; ++c)
+      out[static_cast<std::size_t>(kVector * i + c)] = array.at(i, c);
+  return out;
+}
+
+template <int D>
+void build_bonds(const cleave_network& n, const double* X, int64_t simplex_count,
+                 const int64_t* simplices, const int32_t* alive) {
+  const auto incidence =
+      make_incidence(n.particles, simplex_count, simplices, D + 1, D + 1, n.index_base);
+  for (int64_t s = 0; s < simplex_count; ++s) {
+    if (is_degenerate<D>(X, simplices + (D + 1) * s)) {
+      throw Error(CLEAVE_BAD_SIMPLEX,
+                  text("simplex ", s + n.index_base, " is degenerate; repair the mesh there"));
+    }
+  }
+  std::vector<int64_t> found, row_begin(static_cast<std::size_t>(n.particles) + 1);
+  for (int64_t i = 0; i <= n.particles; ++i)
+    row_begin[static_cast<std::size_t>(i)] = n.row_begin[i] - n.index_base;
+  for (int64_t i = 0; i < n.particles; ++i) {
+    cbm::collect_neighbours(incidence, simplices, D + 1, D + 1, i, found);
+    if (static_cast<int64_t>(found.size()) != n.row_begin[i + 1] - n.row_begin[i]) {
+      throw Error(CLEAVE_BAD_ARGUMENT,
+                  text("row_begin does not fit the simplices at particle ", i + n.index_base,
+                       "; take it from cleave_cbm_count_bonds"));
+    }
+    std::copy(found.begin(), found.end(), n.neighbour + row_begin[static_cast<std::size_t>(i)]);
+  }
+  cbm::fill_reverse(n.particles, row_begin.data(), n.neighbour, n.reverse);
+  for (int64_t i = 0; i < n.particles; ++i) {
+    cbm::rebuild_row<D>(X, simplices, D + 1, alive, incidence, row_begin.data(), n.neighbour, i,
+                        n.zeta, n.volume);
+  }
+  for (int64_t b = 0; b < row_begin.back(); ++b) {
+    n.neighbour[b] += n.index_base;
+    n.reverse[b] += n.index_base;
+  }
+}
 
 }  // namespace
 
 extern "C" {
 
-int32_t cleave_cbm_count_bonds(int32_t dimension, int64_t particles, int64_t simplex_count,
-                               const int64_t* simplices, int64_t* row_begin) {
+int32_t cleave_network_init(cleave_network* network) {
+  return guarded("cleave_network_init", [&] {
+    cleave_network& n = required(network, "network");
+    n = cleave_network{};
+    n.size = sizeof(cleave_network);
+    n.dimension = 3;
+    n.vector_point = kVector;
+    n.tensor_point = kTensor;
+    n.vector_component = n.tensor_component = 1;
+  });
+}
+
+int32_t cleave_cbm_count_bonds(const cleave_network* network, int64_t simplex_count,
+                               const int64_t* simplices) {
   return guarded("cleave_cbm_count_bonds", [&] {
-    check_dimension(dimension);
-    check_rows(0, particles);
-    check_rows(0, simplex_count);
-    if (simplex_count > 0) required(simplices, "simplices");
-    required(row_begin, "row_begin");
+    const cleave_network& n = checked(network);
+    const std::vector<int64_t> corners = zero_based(n, simplex_count, simplices);
+    const int count = n.dimension + 1;
     const auto incidence =
-        make_incidence(particles, simplex_count, simplices, dimension + 1, dimension + 1);
+        make_incidence(n.particles, simplex_count, corners.data(), count, count, n.index_base);
     std::vector<int64_t> found;
-    row_begin[0] = 0;
-    for (int64_t i = 0; i < particles; ++i) {
-      cbm::collect_neighbours(incidence, simplices, dimension + 1, dimension + 1, i, found);
-      row_begin[i + 1] = row_begin[i] + static_cast<int64_t>(found.size());
+    n.row_begin[0] = n.index_base;
+    for (int64_t i = 0; i < n.particles; ++i) {
+      cbm::collect_neighbours(incidence, corners.data(), count, count, i, found);
+      n.row_begin[i + 1] = n.row_begin[i] + static_cast<int64_t>(found.size());
     }
   });
 }
 
-int32_t cleave_cbm_bonds(int32_t dimension, int64_t particles, const double* X,
-                         int64_t simplex_count, const int64_t* simplices, const int32_t* alive,
-                         const int64_t* row_begin, int64_t* neighbour, int64_t* reverse,
-                         double* zeta, double* volume) {
+int32_t cleave_cbm_bonds(const cleave_network* network, const double* X, int64_t simplex_count,
+                         const int64_t* simplices, const int32_t* alive) {
   return guarded("cleave_cbm_bonds", [&] {
-    check_rows(0, particles);
-    check_rows(0, simplex_count);
-    required(X, "X");
-    required(row_begin, "row_begin");
-    required(neighbour, "neighbour");
-    required(reverse, "reverse");
-    required(zeta, "zeta");
-    required(volume, "volume");
-    if (simplex_count > 0) required(simplices, "simplices");
-    with_dimension(dimension, [&](auto d) {
-      constexpr int D = d;
-      const auto incidence = make_incidence(particles, simplex_count, simplices, D + 1, D + 1);
-      for (int64_t s = 0; s < simplex_count; ++s) {
-        if (is_degenerate<D>(X, simplices + (D + 1) * s)) {
-          throw Error(CLEAVE_BAD_SIMPLEX,
-                      text("simplex ", s, " is degenerate; repair the mesh there"));
-        }
-      }
-      std::vector<int64_t> found;
-      for (int64_t i = 0; i < particles; ++i) {
-        cbm::collect_neighbours(incidence, simplices, D + 1, D + 1, i, found);
-        if (static_cast<int64_t>(found.size()) != row_begin[i + 1] - row_begin[i]) {
-          throw Error(CLEAVE_BAD_ARGUMENT, text("row_begin does not fit the simplices at particle ",
-                                                i, "; take it from cleave_cbm_count_bonds"));
-        }
-        std::copy(found.begin(), found.end(), neighbour + row_begin[i]);
-      }
-      cbm::fill_reverse(particles, row_begin, neighbour, reverse);
-      for (int64_t i = 0; i < particles; ++i) {
-        cbm::rebuild_row<D>(X, simplices, D + 1, alive, incidence, row_begin, neighbour, i, zeta,
-                            volume);
-      }
+    const cleave_network& n = checked(network);
+    host_operator(network, 0, n.particles);
+    const std::vector<double> position = packed(n, &required(X, "X"));
+    const std::vector<int64_t> corners = zero_based(n, simplex_count, simplices);
+    with_dimension(n.dimension, [&](auto d) {
+      build_bonds<d>(n, position.data(), simplex_count, corners.data(), alive);
     });
   });
 }
 
-int32_t cleave_displacement_gradient(int32_t dimension, int64_t first, int64_t last,
-                                     const int64_t* row_begin, const int64_t* neighbour,
-                                     const double* zeta, const double* volume, const double* u,
-                                     double* H) {
+int32_t cleave_displacement_gradient(const cleave_network* network, int64_t first, int64_t last,
+                                     const double* u, double* H) {
   return guarded("cleave_displacement_gradient", [&] {
-    check_rows(first, last);
-    const HostOperator g{&required(row_begin, "row_begin"), &required(neighbour, "neighbour"),
-                         nullptr, &required(zeta, "zeta"), &required(volume, "volume")};
+    const HostOperator g = host_operator(network, first, last);
     required(u, "u");
-    check_dimension(dimension);
-    std::fill(&required(H, "H") + kTensor * first, H + kTensor * last, 0.0);
-    with_dimension(dimension, [&](auto d) { displacement_gradient<d>(g, u, first, last, H); });
+    required(H, "H");
+    with_shape(*network, [&](auto d, auto packed) {
+      displacement_gradient<d>(g, vectors<packed>(*network, u), first, last,
+                               tensors<packed>(*network, H));
+    });
   });
 }
 
-int32_t cleave_bond_force(int32_t dimension, int64_t first, int64_t last, const int64_t* row_begin,
-                          const int64_t* neighbour, const int64_t* reverse, const double* zeta,
+int32_t cleave_bond_force(const cleave_network* network, int64_t first, int64_t last,
                           const double* P, double* f) {
   return guarded("cleave_bond_force", [&] {
-    check_rows(first, last);
-    const HostOperator g{&required(row_begin, "row_begin"), &required(neighbour, "neighbour"),
-                         &required(reverse, "reverse"), &required(zeta, "zeta"), nullptr};
+    const HostOperator g = host_operator(network, first, last);
     required(P, "P");
     required(f, "f");
-    with_dimension(dimension, [&](auto d) { internal_force<d>(g, P, first, last, f); });
+    with_shape(*network, [&](auto d, auto packed) {
+      pair_force<d>(g, tensors<packed>(*network, P), first, last, vectors<packed>(*network, f));
+    });
   });
 }
 
-int32_t cleave_bond_viscosity(int32_t dimension, int64_t first, int64_t last,
-                              const int64_t* row_begin, const int64_t* neighbour,
-                              const int64_t* reverse, const double* w, const double* x,
-                              const double* v, const double* J, double coefficient, double length,
-                              double* f) {
+int32_t cleave_bond_viscosity(const cleave_network* network, int64_t first, int64_t last,
+                              const double* w, const double* x, const double* v, const double* J,
+                              double coefficient, double length, double* f) {
   return guarded("cleave_bond_viscosity", [&] {
-    check_rows(first, last);
+    const HostOperator g = host_operator(network, first, last);
     if (!(length > 0))
       throw Error(CLEAVE_BAD_ARGUMENT, text("length is ", length, "; allowed: > 0"));
-    const HostOperator g{&required(row_begin, "row_begin"), &required(neighbour, "neighbour"),
-                         &required(reverse, "reverse"), nullptr, nullptr};
     required(w, "w");
+    required(J, "J");
     required(x, "x");
     required(v, "v");
-    required(J, "J");
     required(f, "f");
-    const BondRate<int64_t> rate{coefficient / length, length, nullptr, nullptr};
-    with_dimension(dimension,
-                   [&](auto d) { viscous_force_frozen<d>(g, rate, w, x, v, J, first, last, f); });
+    const BondRate<int64_t> rate{coefficient, length, nullptr, nullptr};
+    with_shape(*network, [&](auto d, auto packed) {
+      viscous_force_frozen<d>(g, rate, w, vectors<packed>(*network, x),
+                              vectors<packed>(*network, v), J, first, last,
+                              vectors<packed>(*network, f));
+    });
   });
 }
 

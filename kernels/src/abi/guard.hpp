@@ -44,6 +44,14 @@ T& required(T* pointer, const char* name) {
   return *pointer;
 }
 
+inline void check_abi(std::int32_t abi) {
+  if (abi != CLEAVE_ABI_VERSION) {
+    throw Error(CLEAVE_ABI_MISMATCH,
+                text("the caller was compiled for interface ", abi, ", this library has ",
+                     CLEAVE_ABI_VERSION, "; compile it with the installed cleave.h"));
+  }
+}
+
 inline void check_range(std::int64_t first, std::int64_t last, std::int64_t count) {
   if (first < 0 || last < first || last > count) {
     throw Error(CLEAVE_BAD_RANGE, text("range ", first, " <= i < ", last,

@@ -65,11 +65,7 @@ extern "C" {
 int32_t cleave_model_create(int32_t abi, cleave_model** model) {
   return guarded("cleave_model_create", [&] {
     required(model, "model");
-    if (abi != CLEAVE_ABI_VERSION) {
-      throw Error(CLEAVE_ABI_MISMATCH,
-                  text("the caller was compiled for interface ", abi, ", this library has ",
-                       CLEAVE_ABI_VERSION, "; compile it with the installed cleave.h"));
-    }
+    check_abi(abi);
     *model = new cleave_model;
   });
 }

@@ -52,7 +52,7 @@ std::vector<TableEntry> entries_of(std::int32_t table) {
 void set_last_message(const char* function, const char* message) noexcept {
   last_message.length = 0;
   append(last_message, function);
-  append(last_message, ": ");
+  if (*function != '\0') append(last_message, ": ");
   append(last_message, message);
 }
 
@@ -64,6 +64,14 @@ using namespace cleave::abi;
 extern "C" {
 
 const char* cleave_version(void) { return CLEAVE_VERSION; }
+
+int32_t cleave_abi_check(int32_t abi) {
+  return guarded("cleave_abi_check", [&] { check_abi(abi); });
+}
+
+int32_t cleave_set_last_message(const char* text) {
+  return guarded("cleave_set_last_message", [&] { set_last_message("", &required(text, "text")); });
+}
 
 int32_t cleave_last_message(char* text, int64_t capacity, int64_t* length) {
   if (length != nullptr) *length = static_cast<int64_t>(last_message.length);

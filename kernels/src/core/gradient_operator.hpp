@@ -17,43 +17,45 @@
 
 namespace cleave {
 
-// A view; Index is std::int32_t in the model, std::int64_t in array calls.
-template <class Index, class Offset>
+// A view. The kernels below use its member functions only, so that the operator of a host with other
+// integers serves them too (abi/host_arrays.hpp).
 struct GradientOperator {
-  const Offset* row_begin = nullptr;  // (q+1)
-  const Index* neighbour = nullptr;   // (h) particle
-  const Offset* reverse = nullptr;    // (h) particle methods
-  const double* zeta = nullptr;       // (3,h) [m2] reference configuration
-  const double* volume = nullptr;     // (q)   Omega [m3]
+  const std::int32_t* row_begin = nullptr;  // (q+1)
+  const std::int32_t* neighbour = nullptr;  // (h) particle
+  const std::int32_t* reverse = nullptr;    // (h) particle methods
+  const double* zeta = nullptr;             // (3,h) [m2] reference configuration
+  const double* volume = nullptr;           // (q)   Omega [m3]
   // Finite elements only; NULL otherwise.
-  const Index* origin = nullptr;         // (q)
-  const Offset* column_begin = nullptr;  // (n+1)
-  const Index* column_point = nullptr;   // (h) point of an entry, ascending
-  const Offset* column_entry = nullptr;  // (h) its place in zeta
+  const std::int32_t* origin = nullptr;        // (q)
+  const std::int32_t* column_begin = nullptr;  // (n+1)
+  const std::int32_t* column_point = nullptr;  // (h) point of an entry, ascending
+  const std::int32_t* column_entry = nullptr;  // (h) its place in zeta
 
   bool of_particles() const { return origin == nullptr; }
   std::int64_t origin_of(std::int64_t q) const { return of_particles() ? q : origin[q]; }
+  // Entries of row q; the particle of an entry; the same pair seen from its other end.
+  std::int32_t begin(std::int64_t q) const { return row_begin[q]; }
+  std::int32_t end(std::int64_t q) const { return row_begin[q + 1]; }
+  std::int32_t particle(std::int32_t entry) const { return neighbour[entry]; }
+  std::int32_t back(std::int32_t entry) const { return reverse[entry]; }
 };
 
-// The operator of a body.
-using BodyOperator = GradientOperator<std::int32_t, std::int32_t>;
-
 // sum_a (w_a - w_origin) (x) zeta_qa of row q for a vector array w.
-template <int D, class Index, class Offset>
-Mat<D> row_gradient(const GradientOperator<Index, Offset>& g, const double* w, std::int64_t q) {
+template <int D, class Operator, class Vectors>
+Mat<D> row_gradient(const Operator& g, const Vectors& w, std::int64_t q) {
   const std::int64_t origin = g.origin_of(q);
   Mat<D> sum;
-  for (Offset b = g.row_begin[q]; b < g.row_begin[q + 1]; ++b) {
-    add_dyad(sum, difference<D>(w, origin, g.neighbour[b]), load_vector<D>(g.zeta, b));
+  for (auto b = g.begin(q); b < g.end(q); ++b) {
+    add_dyad(sum, difference<D>(w, origin, g.particle(b)), load_vector<D>(g.zeta, b));
   }
   return sum;
 }
 
 // H_q = (1/Omega_q) sum_a u_qa (x) zeta_qa for first <= q < last; zero without volume.   [CBM 8]
 // [in]  u (3,n) displacement [m]     [out] h (9,q) displacement gradient [1], D x D components
-template <int D, class Index, class Offset>
-void displacement_gradient(const GradientOperator<Index, Offset>& g, const double* u,
-                           std::int64_t first, std::int64_t last, double* h) {
+template <int D, class Operator, class Vectors, class Tensors>
+void displacement_gradient(const Operator& g, const Vectors& u, std::int64_t first,
+                           std::int64_t last, const Tensors& h) {
   for (std::int64_t q = first; q < last; ++q) {
     Mat<D> sum;
     if (g.volume[q] > 0) {
@@ -67,32 +69,34 @@ void displacement_gradient(const GradientOperator<Index, Offset>& g, const doubl
 }
 
 // Particle methods: f_i += P_i sum_p zeta_ip - sum_p P_p zeta_pi.                    [CBM 18, 19]
-template <int D, class Index, class Offset>
-void pair_force(const GradientOperator<Index, Offset>& g, const double* p, std::int64_t first,
-                std::int64_t last, double* f) {
+template <int D, class Operator, class Tensors, class Vectors>
+void pair_force(const Operator& g, const Tensors& p, std::int64_t first, std::int64_t last,
+                const Vectors& f) {
   for (std::int64_t i = first; i < last; ++i) {
     Vec<D> own, others;
-    for (Offset b = g.row_begin[i]; b < g.row_begin[i + 1]; ++b) {
+    for (auto b = g.begin(i); b < g.end(i); ++b) {
       const Vec<D> zeta = load_vector<D>(g.zeta, b);
       const Vec<D> back =
-          multiply(load_tensor<D>(p, g.neighbour[b]), load_vector<D>(g.zeta, g.reverse[b]));
+          multiply(load_tensor<D>(p, g.particle(b)), load_vector<D>(g.zeta, g.back(b)));
       for (int k = 0; k < D; ++k) {
         own[k] += zeta[k];
         others[k] += back[k];
       }
     }
     const Vec<D> pulled = multiply(load_tensor<D>(p, i), own);
-    for (int k = 0; k < D; ++k) f[kVector * i + k] += pulled[k] - others[k];
+    Vec<D> force;
+    for (int k = 0; k < D; ++k) force[k] = pulled[k] - others[k];
+    add_vector(force, f, i);
   }
 }
 
 // Finite elements: f_a -= sum_q P_q zeta_qa.
-template <int D, class Index, class Offset>
-void column_force(const GradientOperator<Index, Offset>& g, const double* p, std::int64_t first,
-                  std::int64_t last, double* f) {
+template <int D>
+void column_force(const GradientOperator& g, const double* p, std::int64_t first, std::int64_t last,
+                  double* f) {
   for (std::int64_t a = first; a < last; ++a) {
     Vec<D> sum;
-    for (Offset c = g.column_begin[a]; c < g.column_begin[a + 1]; ++c) {
+    for (auto c = g.column_begin[a]; c < g.column_begin[a + 1]; ++c) {
       const Vec<D> part =
           multiply(load_tensor<D>(p, g.column_point[c]), load_vector<D>(g.zeta, g.column_entry[c]));
       for (int k = 0; k < D; ++k) sum[k] += part[k];
@@ -103,8 +107,8 @@ void column_force(const GradientOperator<Index, Offset>& g, const double* p, std
 
 // The force ON particles first <= a < last, added: minus the gradient of sum_q Omega_q W(F_q).
 // [in]  p (9,q) first Piola-Kirchhoff stress [Pa]     [in,out] f (3,n) force [N]
-template <int D, class Index, class Offset>
-void internal_force(const GradientOperator<Index, Offset>& g, const double* p, std::int64_t first,
+template <int D>
+void internal_force(const GradientOperator& g, const double* p, std::int64_t first,
                     std::int64_t last, double* f) {
   g.of_particles() ? pair_force<D>(g, p, first, last, f) : column_force<D>(g, p, first, last, f);
 }

@@ -59,6 +59,11 @@ void store_tensor(const Mat<D>& m, double* array, std::int64_t q) {
 }
 
 template <int D>
+void add_vector(const Vec<D>& v, double* array, std::int64_t q) {
+  for (int i = 0; i < D; ++i) array[kVector * q + i] += v[i];
+}
+
+template <int D>
 double dot(const Vec<D>& a, const Vec<D>& b) {
   double s = 0;
   for (int i = 0; i < D; ++i) s += a[i] * b[i];

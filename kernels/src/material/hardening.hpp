@@ -50,6 +50,7 @@ struct Flow {
 // For a hardening that only depends on the strain.
 struct RateIndependent {
   static constexpr std::array<FieldSpec, 0> kMemory{};
+  static constexpr const char* kDamage = nullptr;
   static constexpr bool kSmooth = false, kCauchy = false, kFails = false;
   template <class S, class R>
   R first_guess(const S& start, const R& phi, double three_g) const {

@@ -43,10 +43,11 @@ class JohnsonCookHardening {
       real_parameter("D5", "1", {}, 0.0, "failure strain, coefficient of the temperature",
                      "[JC 4]"),
   };
+  static constexpr const char* kDamage = "damage_johnson_cook";
   static constexpr std::array kMemory = {
       point_history("temperature_rise", 1, "K", true,
                     "temperature above T_room, by the heat of the plastic work"),
-      point_history("damage_johnson_cook", 1, "1", true,
+      point_history(kDamage, 1, "1", true,
                     "Johnson-Cook damage; 1: failed, carries no deviator and no tension"),
       point_history("failing_energy", 1, "J m-3", false,
                     "stored by the shear when the point failed; released in the next step"),

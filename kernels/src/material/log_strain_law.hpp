@@ -34,6 +34,7 @@ class LogStrainLaw {
       std::array{
           point_history("thickness_strain", 1, "1", false, "F33 - 1 in plane stress; else 0"),
       });
+  static constexpr const char* kDamage = Hardening::kDamage;
   static constexpr int kLaneHistory = Mapping::kHistory + 1;
   static constexpr bool kUsesLength = Bulk::kUsesLength;
 

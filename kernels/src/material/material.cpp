@@ -11,10 +11,19 @@ Material make_law(std::span<const double> properties, Kinematics kinematics) {
   return Law(properties, kinematics);
 }
 
+template <class Law>
+constexpr const char* damage_of() {
+  if constexpr (requires { Law::kDamage; }) {
+    return Law::kDamage;
+  } else {
+    return nullptr;
+  }
+}
+
 constexpr std::array kTable = {
-#define CLEAVE_MATERIAL(name, value, type, title, source)                       \
-  MaterialEntry{CLEAVE_MATERIAL_##name, #name,          title,          source, \
-                type::kParameters,      type::kHistory, &make_law<type>},
+#define CLEAVE_MATERIAL(name, value, type, title, source)                        \
+  MaterialEntry{CLEAVE_MATERIAL_##name, #name,          title,           source, \
+                type::kParameters,      type::kHistory, &make_law<type>, damage_of<type>()},
 #include "cleave/tables/materials.def"
 };
 

@@ -2,7 +2,9 @@
 //
 // A law is a class with: static kParameters, static kHistory, a constructor from property values
 // and kinematics, density, youngs_modulus, shear_modulus, wave_speed, respond<D>,
-// thickness_stretch. `respond` writes its history only if its answer is valid. Loops over points visit the variant once and then call the law directly.
+// thickness_stretch; and kDamage, the name of its damage variable, if it has one. `respond` writes its
+// history only if its answer is valid. Loops over points visit the variant once and then call the law
+// directly.
 #pragma once
 
 #include <span>
@@ -32,6 +34,7 @@ struct MaterialEntry {
   std::span<const ParameterSpec> parameters;
   std::span<const FieldSpec> history;
   Material (*make)(std::span<const double>, Kinematics);
+  const char* damage;  // history variable that is 1 where the material has failed; NULL: none
 };
 
 std::span<const MaterialEntry> material_table();

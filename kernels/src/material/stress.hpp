@@ -28,35 +28,25 @@ struct HistoryArrays {
   }
 };
 
-// Where the nine components of a tensor stand: base + point * q + component[component(i,j)].
-struct TensorLayout {
-  std::int64_t point = kTensor;
-  std::array<std::int64_t, 9> component = {0, 1, 2, 3, 4, 5, 6, 7, 8};
-
-  std::int64_t place(std::int64_t q, int i, int j) const {
-    return point * q + component[static_cast<std::size_t>(cleave::component(i, j))];
-  }
-};
-
 // The arrays of a stress update. Pointers that may be NULL say so.
 struct StressArrays {
-  const double* h = nullptr;       // (9,n) displacement gradient [1]
-  const double* volume = nullptr;  // (n) [m3]; NULL: all points live and `length` holds for all
-  double dt = 0;                   // [s]
-  double length = 0;               // [m] without volume
+  const double* h = nullptr;  // (9,n) displacement gradient [1]
+  const double* volume =
+      nullptr;        // (n) [m3]; NULL: all points live, and have `length` or `lengths`
+  double dt = 0;      // [s]
+  double length = 0;  // [m] without volume ...
+  const double* lengths = nullptr;  // ... or of point q at lengths[length_stride * q]; may be NULL
+  std::int64_t length_stride = 1;
   HistoryArrays history;
   double* p = nullptr;             // (9,n) first Piola-Kirchhoff stress [Pa]
   double* energy = nullptr;        // (n) stored [J m-3]; may be NULL
   double* plastic = nullptr;       // (n) dissipated by plastic flow in this update; may be NULL
+  double* viscous = nullptr;       // (n) and by the law's own viscosity [J m-3]; may be NULL
   std::int32_t* failed = nullptr;  // (n) 1: the law has no answer; may be NULL
-  // Other layouts than the one in the comments above, for hosts.
-  TensorLayout h_layout, p_layout;
-  std::int64_t energy_stride = 1, plastic_stride = 1, failed_stride = 1;
-  bool h_is_f = false;  // h holds F, not F - I
 
   template <int D>
   Increment increment(std::int64_t q) const {
-    if (volume == nullptr) return {dt, length};
+    if (volume == nullptr) return {dt, lengths == nullptr ? length : lengths[length_stride * q]};
     return {dt, D == 2 ? std::sqrt(volume[q]) : std::cbrt(volume[q])};
   }
   bool live(std::int64_t q) const { return volume == nullptr || volume[q] > 0; }
@@ -81,9 +71,10 @@ namespace stress_update {
 inline void book(const StressArrays& a, std::int64_t q, bool valid, double energy, double plastic,
                  double viscous, StressResult& result) {
   if (!valid && result.first_failed < 0) result.first_failed = q;
-  if (a.energy != nullptr) a.energy[a.energy_stride * q] = energy;
-  if (a.plastic != nullptr) a.plastic[a.plastic_stride * q] = plastic;
-  if (a.failed != nullptr) a.failed[a.failed_stride * q] = valid ? 0 : 1;
+  if (a.energy != nullptr) a.energy[q] = energy;
+  if (a.plastic != nullptr) a.plastic[q] = plastic;
+  if (a.viscous != nullptr) a.viscous[q] = viscous;
+  if (a.failed != nullptr) a.failed[q] = valid ? 0 : 1;
   const double volume = a.volume == nullptr ? 1.0 : a.volume[q];
   result.plastic += volume * plastic;
   result.viscous += volume * viscous;
@@ -114,10 +105,7 @@ template <int D, class Law>
 void update_point(const Law& law, const StressArrays& a, std::int64_t q, StressResult& result) {
   Response<Mat<D>> r;
   if (a.live(q)) {
-    Mat<D> h;
-    for (int i = 0; i < D; ++i)
-      for (int j = 0; j < D; ++j)
-        h(i, j) = a.h[a.h_layout.place(q, i, j)] - (a.h_is_f && i == j ? 1.0 : 0.0);
+    const Mat<D> h = load_tensor<D>(a.h, q);
     if (a.history.component_stride == 1) {
       r = law.respond(h, a.history.at(q), a.template increment<D>(q));
     } else {
@@ -131,27 +119,26 @@ void update_point(const Law& law, const StressArrays& a, std::int64_t q, StressR
       r.valid = false;
     }
   }
-  for (int i = 0; i < D; ++i)
-    for (int j = 0; j < D; ++j) a.p[a.p_layout.place(q, i, j)] = r.stress(i, j);
-  if constexpr (D == 2) a.p[a.p_layout.place(q, 2, 2)] = r.stress_33;
+  store_tensor(r.stress, a.p, q);
+  if constexpr (D == 2) a.p[kTensor * q + component(2, 2)] = r.stress_33;
   book(a, q, r.valid, r.energy, r.plastic, r.viscous, result);
 }
 
-// f(component of the lanes, place of its first point) for the components of a tensor in D dimensions;
-// `with_33`: that one too in two.
+// f(component of the lanes, its place in a tensor) for the components in D dimensions; `with_33`: that
+// one too in two.
 template <int D, bool with_33, class R, class F>
-void each_component(Full<R>& t, const TensorLayout& layout, std::int64_t q, const F& f) {
-  f(t.xx, layout.place(q, 0, 0));
-  f(t.yx, layout.place(q, 1, 0));
-  f(t.xy, layout.place(q, 0, 1));
-  f(t.yy, layout.place(q, 1, 1));
+void each_component(Full<R>& t, const F& f) {
+  f(t.xx, component(0, 0));
+  f(t.yx, component(1, 0));
+  f(t.xy, component(0, 1));
+  f(t.yy, component(1, 1));
   if constexpr (D == 3) {
-    f(t.zx, layout.place(q, 2, 0));
-    f(t.zy, layout.place(q, 2, 1));
-    f(t.xz, layout.place(q, 0, 2));
-    f(t.yz, layout.place(q, 1, 2));
+    f(t.zx, component(2, 0));
+    f(t.zy, component(2, 1));
+    f(t.xz, component(0, 2));
+    f(t.yz, component(1, 2));
   }
-  if constexpr (D == 3 || with_33) f(t.zz, layout.place(q, 2, 2));
+  if constexpr (D == 3 || with_33) f(t.zz, component(2, 2));
 }
 
 // f(component of the lanes, its address, distance to the next point)
@@ -165,23 +152,18 @@ void each_history(std::array<R, Law::kLaneHistory>& history, const HistoryArrays
   }
 }
 
-// Points q, q+1, ... of the lanes of R. kUnit: the same component of neighbouring points stands side
-// by side in all arrays.
-template <int D, class R, bool kUnit, class Law>
+// Points q, q+1, ... of the lanes of R. kUnitHistory: the same history of neighbouring points stands
+// side by side.
+template <int D, class R, bool kUnitHistory, class Law>
 void update_lanes(const Law& law, const StressArrays& a, std::int64_t q, StressResult& result) {
   constexpr int kLanes = kLanesOf<R>;
   LanePoint<R, Law::kLaneHistory> point;
   point.h = Full<R>{};
-  each_component<D, false>(point.h, a.h_layout, q, [&](R& x, std::int64_t place) {
-    x = load_lanes<R, kUnit>(a.h + place, a.h_layout.point);
+  each_component<D, false>(point.h, [&](R& x, int place) {
+    x = load_lanes<R, false>(a.h + kTensor * q + place, kTensor);
   });
-  if (a.h_is_f) {
-    point.h.xx = point.h.xx - 1.0;
-    point.h.yy = point.h.yy - 1.0;
-    if constexpr (D == 3) point.h.zz = point.h.zz - 1.0;
-  }
   each_history<Law>(point.history, a.history, q, [](R& x, const double* from, std::int64_t stride) {
-    x = load_lanes<R, kUnit>(from, stride);
+    x = load_lanes<R, kUnitHistory>(from, stride);
   });
   Setting<R> setting{a.dt, R(a.length)};
   if constexpr (Law::kUsesLength) {
@@ -193,11 +175,11 @@ void update_lanes(const Law& law, const StressArrays& a, std::int64_t q, StressR
   bool all_live = true;
   for (int l = 0; l < kLanes; ++l) all_live = all_live && a.live(q + l);
   if (all_live && all(point.valid)) {
-    each_component<D, true>(point.p, a.p_layout, q, [&](const R& x, std::int64_t place) {
-      store_lanes<R, kUnit>(x, a.p + place, a.p_layout.point);
+    each_component<D, true>(point.p, [&](const R& x, int place) {
+      store_lanes<R, false>(x, a.p + kTensor * q + place, kTensor);
     });
     each_history<Law>(point.history, a.history, q, [](const R& x, double* to, std::int64_t stride) {
-      store_lanes<R, kUnit>(x, to, stride);
+      store_lanes<R, kUnitHistory>(x, to, stride);
     });
     for (int l = 0; l < kLanes; ++l)
       book(a, q + l, true, lane(point.energy, l), lane(point.plastic, l), lane(point.viscous, l),
@@ -206,8 +188,8 @@ void update_lanes(const Law& law, const StressArrays& a, std::int64_t q, StressR
   }
   for (int l = 0; l < kLanes; ++l) {
     const bool valid = lane(point.valid, l), good = valid && a.live(q + l);
-    each_component<D, true>(point.p, a.p_layout, q + l, [&](const R& x, std::int64_t place) {
-      a.p[place] = good ? lane(x, l) : 0.0;
+    each_component<D, true>(point.p, [&](const R& x, int place) {
+      a.p[kTensor * (q + l) + place] = good ? lane(x, l) : 0.0;
     });
     if (good) {
       each_history<Law>(point.history, a.history, q + l,
@@ -218,15 +200,15 @@ void update_lanes(const Law& law, const StressArrays& a, std::int64_t q, StressR
   }
 }
 
-template <int D, bool kUnit, class Law>
+template <int D, bool kUnitHistory, class Law>
 void update_batches(const Law& law, const StressArrays& a, std::int64_t first, std::int64_t last,
                     StressResult& result) {
   using Lanes = Pack<kNativeLanes>;
   std::int64_t q = first;
   for (; q + kNativeLanes <= last; q += kNativeLanes) {
-    update_lanes<D, Lanes, kUnit>(law, a, q, result);
+    update_lanes<D, Lanes, kUnitHistory>(law, a, q, result);
   }
-  for (; q < last; ++q) update_lanes<D, double, kUnit>(law, a, q, result);
+  for (; q < last; ++q) update_lanes<D, double, kUnitHistory>(law, a, q, result);
 }
 
 }  // namespace stress_update
@@ -248,7 +230,7 @@ StressResult update_stress(const Law& law, const StressArrays& a, std::int64_t f
   if constexpr (LaneLaw<Law>) {
     if (law.in_lanes()) {
       StressResult result;
-      bool unit = a.h_layout.point == 1 && a.p_layout.point == 1;
+      bool unit = true;
       for (std::size_t k = 0; k < Law::kHistory.size(); ++k)
         unit = unit && a.history.stride[k] == 1;
       if (unit) {

@@ -44,7 +44,7 @@ class Formulation {
   virtual double stable_step(const Body& body) const = 0;
   // The gradient operator of a formulation with a stress at points, else nullptr. Valid until bonds
   // break or the body is rebuilt.
-  virtual const BodyOperator* gradient_operator() const { return nullptr; }
+  virtual const GradientOperator* gradient_operator() const { return nullptr; }
 
   // What the static solver would miss, as a sentence; empty: nothing.
   virtual std::string static_obstacle(const Body&) const { return {}; }

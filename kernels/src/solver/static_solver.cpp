@@ -232,7 +232,7 @@ class Newton {
   Clock clock_;
   int threads_;
   StaticOptions options_;
-  const BodyOperator& g_;
+  const GradientOperator& g_;
   Committed committed_;
   Equations equations_;
   std::vector<double> displacement_;  // (3,n) of the last accepted trial

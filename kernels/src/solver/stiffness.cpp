@@ -15,7 +15,7 @@ struct Row {
   std::vector<std::int32_t> particle;
   std::vector<Vec<D>> zeta;
 
-  void take(const BodyOperator& g, std::int64_t q) {
+  void take(const GradientOperator& g, std::int64_t q) {
     particle.clear();
     zeta.clear();
     Vec<D> own;
@@ -66,7 +66,7 @@ void add_row(const Row<D>& row, const Tangent<D>& tangent, double volume,
 }
 
 template <int D>
-bool assemble_in(const Body& body, const BodyOperator& g, const HistoryArrays& committed,
+bool assemble_in(const Body& body, const GradientOperator& g, const HistoryArrays& committed,
                  const Equations& equations, Stiffness& k) {
   std::vector<Eigen::Triplet<double>> entries;
   k.fix.clear();
@@ -94,7 +94,7 @@ bool assemble_in(const Body& body, const BodyOperator& g, const HistoryArrays& c
 
 }  // namespace
 
-Equations::Equations(const Body& body, const BodyOperator& g)
+Equations::Equations(const Body& body, const GradientOperator& g)
     : of(static_cast<std::size_t>(kVector * body.particles), -1) {
   constexpr std::int32_t kFree = 0;
   const int d = body.dimension();
@@ -109,7 +109,7 @@ Equations::Equations(const Body& body, const BodyOperator& g)
   }
 }
 
-bool assemble(const Body& body, const BodyOperator& g, const HistoryArrays& committed,
+bool assemble(const Body& body, const GradientOperator& g, const HistoryArrays& committed,
               const Equations& equations, Stiffness& k) {
   return body.dimension() == 2 ? assemble_in<2>(body, g, committed, equations, k)
                                : assemble_in<3>(body, g, committed, equations, k);

@@ -14,7 +14,7 @@ namespace cleave {
 // Numbers of the equations: -1 for a degree of freedom that is prescribed, has no stiffness, or lies
 // out of the plane.
 struct Equations {
-  explicit Equations(const Body& body, const BodyOperator& g);
+  explicit Equations(const Body& body, const GradientOperator& g);
   std::vector<std::int32_t> of;  // (3,n)
   std::int64_t count = 0;
 };
@@ -28,7 +28,7 @@ struct Stiffness {
 };
 
 // From the present H and the committed history. False if a law has no tangent there.
-bool assemble(const Body& body, const BodyOperator& g, const HistoryArrays& committed,
+bool assemble(const Body& body, const GradientOperator& g, const HistoryArrays& committed,
               const Equations& equations, Stiffness& k);
 
 }  // namespace cleave

@@ -136,9 +136,8 @@ TEST_P(GradientOperatorOf, RangeTouchesOnlyItsRows) {
   const auto P = random_tensors(b, 7), whole = b.force(P);
   std::vector<double> f(whole.size(), 0.0);
   const std::int64_t first = 11, last = 37;
-  ASSERT_EQ(cleave_bond_force(b.mesh.dimension, first, last, b.row_begin.data(), b.neighbour.data(),
-                              b.reverse.data(), b.zeta.data(), P.data(), f.data()),
-            CLEAVE_OK);
+  const cleave_network net = b.network();
+  ASSERT_EQ(cleave_bond_force(&net, first, last, P.data(), f.data()), CLEAVE_OK);
   for (std::int64_t k = 0; k < static_cast<std::int64_t>(f.size()); ++k) {
     EXPECT_EQ(f[at(k)], k >= 3 * first && k < 3 * last ? whole[at(k)] : 0.0);
   }

@@ -18,7 +18,7 @@ class ContinuumBondMethod final : public Formulation {
   void setup(Body& body) override;
   void rebuild(Body& body, int threads) override;
   double stable_step(const Body& body) const override;
-  const BodyOperator* gradient_operator() const override { return &operator_; }
+  const GradientOperator* gradient_operator() const override { return &operator_; }
   std::string static_obstacle(const Body& body) const override;
 
   void break_bonds(Body& body, const Clock& clock, int threads) override;
@@ -39,7 +39,7 @@ class ContinuumBondMethod final : public Formulation {
   void forces_in(Body& body, int threads);
 
   Network network_;
-  BodyOperator operator_;
+  GradientOperator operator_;
   StressPoints points_;
   Fracture fracture_;
   Stabilisation stabilisation_;

@@ -166,7 +166,7 @@ void Fracture::collect(const Body& body, const Network& network) {
 template <int D>
 void Fracture::add_release(const Body& body, const Network& network,
                            const Stabilisation& stabilisation, const Clock& clock, double sign) {
-  const BodyOperator g = network.gradient();
+  const GradientOperator g = network.gradient();
   const StressArrays arrays = stress_arrays(body, clock);
   const double share = sign * stabilisation.particle_share();
   for (std::size_t place = 0; place < touched_.size(); ++place) {
@@ -189,7 +189,7 @@ void Fracture::add_release(const Body& body, const Network& network,
 template <int D>
 void Fracture::add_simplex_release(const Body& body, const Network& network,
                                    const Stabilisation& stabilisation, double dt, double sign) {
-  const BodyOperator g = network.gradient();
+  const GradientOperator g = network.gradient();
   const bool deviation = stabilisation.form() == StabilisationForm::deviation;
   for (const std::int32_t s : affected_) {
     if (network.alive[s] == 0) continue;

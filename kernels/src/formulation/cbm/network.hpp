@@ -50,7 +50,7 @@ class Network {
   // Undirected bond between two particles, or -1.
   std::int32_t find_bond(std::int64_t i, std::int64_t p) const;
 
-  BodyOperator gradient() const {
+  GradientOperator gradient() const {
     return {row_begin.data(), neighbour.data(), reverse.data(), zeta, volume};
   }
   std::int64_t bytes() const;

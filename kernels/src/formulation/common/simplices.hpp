@@ -66,18 +66,20 @@ struct Incidence {
   std::vector<std::int32_t> simplex;  // (m (D+1))
 };
 
-// [in] simplices (stride,m), the first `corners` of each are particles.
+// [in] simplices (stride,m), the first `corners` of each are particles, counted from 0
+// [in] base: what the caller counts from, for messages
 template <class Index>
 Incidence make_incidence(std::int64_t particles, std::int64_t count, const Index* simplices,
-                         int corners, int stride) {
+                         int corners, int stride, std::int64_t base = 0) {
   Incidence in;
   in.begin.assign(static_cast<std::size_t>(particles) + 1, 0);
   for (std::int64_t s = 0; s < count; ++s) {
     for (int a = 0; a < corners; ++a) {
       const auto i = static_cast<std::int64_t>(simplices[stride * s + a]);
       if (i < 0 || i >= particles) {
-        throw Error(CLEAVE_BAD_SIMPLEX, text("simplex ", s, " refers to particle ", i,
-                                             "; particles are 0 to ", particles - 1));
+        throw Error(CLEAVE_BAD_SIMPLEX,
+                    text("simplex ", s + base, " refers to particle ", i + base, "; particles are ",
+                         base, " to ", particles - 1 + base));
       }
       ++in.begin[static_cast<std::size_t>(i + 1)];
     }

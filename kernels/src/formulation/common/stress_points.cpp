@@ -8,7 +8,7 @@ namespace cleave {
 namespace {
 
 template <int D>
-void gradients_in(Body& body, const BodyOperator& g, int threads) {
+void gradients_in(Body& body, const GradientOperator& g, int threads) {
   for_blocks(threads, body.points, [&](std::int64_t, std::int64_t first, std::int64_t last) {
     displacement_gradient<D>(g, body.point.u, first, last, body.point.h);
     for (std::int64_t q = first; q < last; ++q) {
@@ -30,7 +30,7 @@ StressArrays stress_arrays(const Body& body, const Clock& clock) {
   return a;
 }
 
-std::string point_label(const Body& body, const BodyOperator& g, std::int64_t q) {
+std::string point_label(const Body& body, const GradientOperator& g, std::int64_t q) {
   if (g.of_particles()) return body.particle_label(q);
   return text("integration point ", q, " beside ", body.particle_label(g.origin_of(q)));
 }
@@ -40,11 +40,11 @@ void StressPoints::setup(const Body& body) {
   dissipated_.resize(body.points);
 }
 
-void StressPoints::gradients(Body& body, const BodyOperator& g, int threads) const {
+void StressPoints::gradients(Body& body, const GradientOperator& g, int threads) const {
   body.dimension() == 2 ? gradients_in<2>(body, g, threads) : gradients_in<3>(body, g, threads);
 }
 
-void StressPoints::deform(Body& body, const BodyOperator& g, const Clock& clock, int threads) {
+void StressPoints::deform(Body& body, const GradientOperator& g, const Clock& clock, int threads) {
   gradients(body, g, threads);
   const StressArrays arrays = stress_arrays(body, clock);
   with_law(body.material, [&](const auto& law) {

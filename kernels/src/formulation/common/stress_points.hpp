@@ -17,10 +17,10 @@ class StressPoints {
   void setup(const Body& body);
 
   // H and det F of all points from the displacements.
-  void gradients(Body& body, const BodyOperator& g, int threads) const;
+  void gradients(Body& body, const GradientOperator& g, int threads) const;
   // The same, then the stress; books what plastic flow and the law's viscosity dissipate. Throws
   // BAD_JACOBIAN naming the first point whose law has no answer.
-  void deform(Body& body, const BodyOperator& g, const Clock& clock, int threads);
+  void deform(Body& body, const GradientOperator& g, const Clock& clock, int threads);
   // sum of Omega psi [J]
   double stored_energy(const Body& body) const;
   // Points with volume and det F <= 0.
@@ -35,6 +35,6 @@ class StressPoints {
 StressArrays stress_arrays(const Body& body, const Clock& clock);
 
 // "particle 7 (at X = ...)" or "integration point 7 (at ...)" for messages.
-std::string point_label(const Body& body, const BodyOperator& g, std::int64_t q);
+std::string point_label(const Body& body, const GradientOperator& g, std::int64_t q);
 
 }  // namespace cleave

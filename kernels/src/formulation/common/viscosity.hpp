@@ -41,8 +41,7 @@ struct BondRate {
   const double* lengths = nullptr;      // ... or, if not NULL, l of every undirected bond
   const Index* bond_of_half = nullptr;  // needed with lengths
 
-  template <class Offset>
-  double length_of(Offset half) const {
+  double length_of(Index half) const {
     return lengths == nullptr ? length : lengths[bond_of_half[half]];
   }
 };
@@ -53,16 +52,16 @@ struct BondRate {
 // [in]     ratio  (n)    det F [1]
 // [in]     w      (h)    bond weights [m3]
 // [in,out] f      (3,n)  force [N], added to
-template <int D, class Index, class Offset>
-void viscous_force_frozen(const GradientOperator<Index, Offset>& g, const BondRate<Index>& rate,
-                          const double* w, const double* x, const double* v, const double* ratio,
-                          std::int64_t first, std::int64_t last, double* f) {
+template <int D, class Operator, class Index, class Positions, class Velocities, class Forces>
+void viscous_force_frozen(const Operator& g, const BondRate<Index>& rate, const double* w,
+                          const Positions& x, const Velocities& v, const double* ratio,
+                          std::int64_t first, std::int64_t last, const Forces& f) {
   const auto clipped = [ratio](std::int64_t i) { return ratio[i] > 0 ? ratio[i] : 0.0; };
   for (std::int64_t i = first; i < last; ++i) {
     Vec<D> sum;
-    for (Offset b = g.row_begin[i]; b < g.row_begin[i + 1]; ++b) {
-      const std::int64_t p = g.neighbour[b];
-      const double weight = w[b] * clipped(i) + w[g.reverse[b]] * clipped(p);
+    for (auto b = g.begin(i); b < g.end(i); ++b) {
+      const std::int64_t p = g.particle(b);
+      const double weight = w[b] * clipped(i) + w[g.back(b)] * clipped(p);
       const Vec<D> xip = difference<D>(x, i, p);
       const double square = dot(xip, xip);
       if (!(weight > 0) || !(square > 0)) continue;  // no live simplex, or no direction
@@ -72,7 +71,7 @@ void viscous_force_frozen(const GradientOperator<Index, Offset>& g, const BondRa
           rate.beta_rho_c * l * approach * weight / ((square + 0.01 * l * l) * square);
       for (int k = 0; k < D; ++k) sum[k] += scale * xip[k];
     }
-    for (int k = 0; k < D; ++k) f[kVector * i + k] += sum[k];
+    add_vector(sum, f, i);
   }
 }
 
@@ -81,24 +80,24 @@ void viscous_force_frozen(const GradientOperator<Index, Offset>& g, const BondRa
 // the bond direction, for which the power of every pair is never positive. An end with J <= 0
 // does not contribute.
 // [in]     h      (9,n)  displacement gradient [1]; the rest as above
-template <int D, bool Central, class Index, class Offset>
-void viscous_force_deformed(const GradientOperator<Index, Offset>& g, const BondRate<Index>& rate,
+template <int D, bool Central>
+void viscous_force_deformed(const GradientOperator& g, const BondRate<std::int32_t>& rate,
                             const double* x, const double* v, const double* h, const double* ratio,
                             std::int64_t first, std::int64_t last, double* f) {
-  const auto area = [&](std::int64_t end, Offset half) {
+  const auto area = [&](std::int64_t end, std::int32_t half) {
     if (!(ratio[end] > 0)) return Vec<D>{};
     return multiply(cofactor(plus_identity(load_tensor<D>(h, end))), load_vector<D>(g.zeta, half));
   };
   for (std::int64_t i = first; i < last; ++i) {
     Vec<D> sum;
-    for (Offset b = g.row_begin[i]; b < g.row_begin[i + 1]; ++b) {
-      const std::int64_t p = g.neighbour[b];
+    for (auto b = g.begin(i); b < g.end(i); ++b) {
+      const std::int64_t p = g.particle(b);
       const Vec<D> xip = difference<D>(x, i, p);
       const double l = rate.length_of(b);
       const double square = dot(xip, xip);
       const double pressure =
           rate.beta_rho_c * l * dot(difference<D>(v, i, p), xip) / (square + 0.01 * l * l);
-      const Vec<D> own = area(i, b), other = area(p, g.reverse[b]);
+      const Vec<D> own = area(i, b), other = area(p, g.back(b));
       Vec<D> direction;
       for (int k = 0; k < D; ++k) direction[k] = own[k] - other[k];
       if constexpr (Central) {
@@ -107,7 +106,7 @@ void viscous_force_deformed(const GradientOperator<Index, Offset>& g, const Bond
       }
       for (int k = 0; k < D; ++k) sum[k] += pressure * direction[k];
     }
-    for (int k = 0; k < D; ++k) f[kVector * i + k] += sum[k];
+    add_vector(sum, f, i);
   }
 }
 
@@ -118,9 +117,9 @@ struct ViscousArrays {
 };
 
 // The force of the chosen form on first <= i < last.
-template <int D, class Index, class Offset>
-void viscous_force(ViscosityForm form, const GradientOperator<Index, Offset>& g,
-                   const BondRate<Index>& rate, const ViscousArrays& a, std::int64_t first,
+template <int D>
+void viscous_force(ViscosityForm form, const GradientOperator& g,
+                   const BondRate<std::int32_t>& rate, const ViscousArrays& a, std::int64_t first,
                    std::int64_t last) {
   switch (form) {
     case ViscosityForm::none:

@@ -17,7 +17,7 @@ class FiniteElements final : public Formulation {
   void setup(Body& body) override;
   void rebuild(Body& body, int threads) override;
   double stable_step(const Body& body) const override;
-  const BodyOperator* gradient_operator() const override { return &operator_; }
+  const GradientOperator* gradient_operator() const override { return &operator_; }
 
   void break_bonds(Body&, const Clock&, int) override {}
   void deform(Body& body, const Clock& clock, int threads) override;
@@ -40,7 +40,7 @@ class FiniteElements final : public Formulation {
   void make_columns(const Body& body);
 
   std::int64_t elements_ = 0;
-  BodyOperator operator_;
+  GradientOperator operator_;
   StressPoints points_;
   std::vector<std::int32_t> row_begin_, node_, origin_;
   std::vector<std::int32_t> column_begin_, column_point_, column_entry_;

@@ -19,7 +19,7 @@ class KernelMethod : public Formulation {
   void setup(Body& body) override;
   void rebuild(Body& body, int threads) override;
   double stable_step(const Body&) const override { return stable_step_; }
-  const BodyOperator* gradient_operator() const override { return &operator_; }
+  const GradientOperator* gradient_operator() const override { return &operator_; }
   std::string static_obstacle(const Body& body) const override;
 
   void break_bonds(Body&, const Clock&, int) override {}
@@ -47,7 +47,7 @@ class KernelMethod : public Formulation {
   void forces_in(Body& body, int threads);
 
   KernelGradient gradient_;
-  BodyOperator operator_;
+  GradientOperator operator_;
   StressPoints points_;
   Hourglass hourglass_;
   ViscosityForm viscosity_ = ViscosityForm::none;

@@ -35,7 +35,7 @@ double square_error(const PairMotion& m, std::int64_t i, std::int64_t p) {
 
 // 1/2 sum over ordered pairs of c(i, p, half-bond) |err_ip|^2
 template <class Stiffness>
-double penalty_energy(const Body& body, const BodyOperator& g, const Stiffness& c) {
+double penalty_energy(const Body& body, const GradientOperator& g, const Stiffness& c) {
   const PairMotion m = motion_of(body);
   double sum = 0;
   for (std::int64_t i = 0; i < body.particles; ++i) {
@@ -89,7 +89,7 @@ void Hourglass::setup(Body& body, const KernelGradient& gradient, const Kernel& 
 }
 
 template <int D>
-Vec<D> Hourglass::force_on(const PairMotion& motion, const BodyOperator& g, std::int64_t i) const {
+Vec<D> Hourglass::force_on(const PairMotion& motion, const GradientOperator& g, std::int64_t i) const {
   const bool projected = form_ == HourglassForm::projected;
   Vec<D> sum;
   for (std::int32_t b = g.row_begin[i]; b < g.row_begin[i + 1]; ++b) {
@@ -109,7 +109,7 @@ Vec<D> Hourglass::force_on(const PairMotion& motion, const BodyOperator& g, std:
 }
 
 template <int D>
-double Hourglass::add_force(const Body& body, const BodyOperator& g, std::int64_t first,
+double Hourglass::add_force(const Body& body, const GradientOperator& g, std::int64_t first,
                             std::int64_t last) const {
   const PairMotion motion = motion_of(body);
   double power = 0;
@@ -129,7 +129,7 @@ void Hourglass::book(double power, double dt) const {
   if (form_ == HourglassForm::projected) *work_ -= 0.5 * dt * power;
 }
 
-double Hourglass::energy(const Body& body, const BodyOperator& g) const {
+double Hourglass::energy(const Body& body, const GradientOperator& g) const {
   if (form_ == HourglassForm::projected) return *work_;
   if (!active()) return 0;
   return penalty_energy(body, g, [&](std::int64_t, std::int64_t, std::int32_t b) {
@@ -137,7 +137,7 @@ double Hourglass::energy(const Body& body, const BodyOperator& g) const {
   });
 }
 
-double Hourglass::diagnostic(const Body& body, const BodyOperator& g) const {
+double Hourglass::diagnostic(const Body& body, const GradientOperator& g) const {
   return penalty_energy(body, g, [&](std::int64_t i, std::int64_t p, std::int32_t) {
     const Vec<3> d = difference<3>(body.point.X, i, p);
     return half_modulus_ * g.volume[i] * g.volume[p] * kernel_.omega(std::sqrt(dot(d, d)));
@@ -145,9 +145,9 @@ double Hourglass::diagnostic(const Body& body, const BodyOperator& g) const {
 }
 
 #define CLEAVE_INSTANTIATE(D)                                                                  \
-  template Vec<D> Hourglass::force_on<D>(const PairMotion&, const BodyOperator&, std::int64_t) \
+  template Vec<D> Hourglass::force_on<D>(const PairMotion&, const GradientOperator&, std::int64_t) \
       const;                                                                                   \
-  template double Hourglass::add_force<D>(const Body&, const BodyOperator&, std::int64_t,      \
+  template double Hourglass::add_force<D>(const Body&, const GradientOperator&, std::int64_t,      \
                                           std::int64_t) const;
 CLEAVE_INSTANTIATE(2)
 CLEAVE_INSTANTIATE(3)

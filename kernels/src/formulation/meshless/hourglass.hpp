@@ -31,19 +31,19 @@ class Hourglass {
 
   // Force on particle i [N].
   template <int D>
-  Vec<D> force_on(const PairMotion& motion, const BodyOperator& g, std::int64_t i) const;
+  Vec<D> force_on(const PairMotion& motion, const GradientOperator& g, std::int64_t i) const;
   // Adds the penalty to the internal force of first <= i < last and keeps it in hourglass_force.
   // Returns the sum of (force before + force now) . v over the particles [W].
   template <int D>
-  double add_force(const Body& body, const BodyOperator& g, std::int64_t first,
+  double add_force(const Body& body, const GradientOperator& g, std::int64_t first,
                    std::int64_t last) const;
   // Books the work of the step against a penalty without energy. [in] power: sum of what add_force
   // returned; dt: size of the step, 0 before the first
   void book(double power, double dt) const;
   // Energy of the conservative penalty, booked work of the projected one [J].
-  double energy(const Body& body, const BodyOperator& g) const;
+  double energy(const Body& body, const GradientOperator& g) const;
   // Diagnostic: V with psi = 1, whatever the form [J].
-  double diagnostic(const Body& body, const BodyOperator& g) const;
+  double diagnostic(const Body& body, const GradientOperator& g) const;
   std::int64_t bytes() const {
     return static_cast<std::int64_t>(stiffness_.capacity() * sizeof(double));
   }

@@ -37,7 +37,7 @@ class KernelGradient {
   // Volumes and weights again, from the fields.
   void rebuild(const Body& body, int threads);
 
-  BodyOperator gradient() const {
+  GradientOperator gradient() const {
     return {.row_begin = rows.row_begin.data(),
             .neighbour = rows.neighbour.data(),
             .reverse = rows.reverse.data(),

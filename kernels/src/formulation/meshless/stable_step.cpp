@@ -19,7 +19,7 @@ constexpr int kSteps = 20;
 template <int D>
 class LinearBody {
  public:
-  LinearBody(const Body& body, const BodyOperator& g, const Hourglass& hourglass)
+  LinearBody(const Body& body, const GradientOperator& g, const Hourglass& hourglass)
       : body_(body), g_(g), hourglass_(hourglass) {
     h_.assign(static_cast<std::size_t>(kTensor * body.particles), 0.0);
     p_ = h_;
@@ -81,7 +81,7 @@ class LinearBody {
   }
 
   const Body& body_;
-  const BodyOperator& g_;
+  const GradientOperator& g_;
   const Hourglass& hourglass_;
   std::vector<double> h_, p_;       // (9,n)
   std::vector<double> undeformed_;  // (n) det F
@@ -89,7 +89,7 @@ class LinearBody {
 };
 
 template <int D>
-LargestRates rates_in(const Body& body, const BodyOperator& g, const Hourglass& hourglass,
+LargestRates rates_in(const Body& body, const GradientOperator& g, const Hourglass& hourglass,
                       const BondRate<std::int32_t>& rate, const std::vector<double>& weight) {
   LinearBody<D> linear(body, g, hourglass);
   const std::vector<double> mass = linear.masses();
@@ -105,7 +105,7 @@ LargestRates rates_in(const Body& body, const BodyOperator& g, const Hourglass& 
 
 }  // namespace
 
-LargestRates largest_rates(const Body& body, const BodyOperator& g, const Hourglass& hourglass,
+LargestRates largest_rates(const Body& body, const GradientOperator& g, const Hourglass& hourglass,
                            const BondRate<std::int32_t>& rate,
                            const std::vector<double>& bond_weight) {
   return body.dimension() == 2 ? rates_in<2>(body, g, hourglass, rate, bond_weight)

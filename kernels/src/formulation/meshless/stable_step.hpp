@@ -16,7 +16,7 @@ struct LargestRates {
 };
 
 // bond_weight: zeta_ip . X_ip of every half-bond for the viscosity, or empty: none
-LargestRates largest_rates(const Body& body, const BodyOperator& g, const Hourglass& hourglass,
+LargestRates largest_rates(const Body& body, const GradientOperator& g, const Hourglass& hourglass,
                            const BondRate<std::int32_t>& rate,
                            const std::vector<double>& bond_weight);
 

@@ -43,10 +43,14 @@ struct State {
   template <int D>
   void add(Form form, const std::vector<std::int64_t>& rows, std::int64_t first, std::int64_t last,
            std::vector<double>& f) const {
-    const GradientOperator<std::int64_t, std::int64_t> g{rows.data(), bonds.neighbour.data(),
-                                                         bonds.reverse.data(), bonds.zeta.data(),
-                                                         bonds.volume.data()};
-    const BondRate<std::int64_t> rate{kCoefficient, kLength, nullptr, nullptr};
+    const auto narrow = [](const std::vector<std::int64_t>& wide) {
+      return std::vector<std::int32_t>(wide.begin(), wide.end());
+    };
+    const auto begin = narrow(rows), neighbour = narrow(bonds.neighbour),
+               reverse = narrow(bonds.reverse);
+    const GradientOperator g{begin.data(), neighbour.data(), reverse.data(), bonds.zeta.data(),
+                             bonds.volume.data()};
+    const BondRate<std::int32_t> rate{kCoefficient, kLength, nullptr, nullptr};
     switch (form) {
       case Form::frozen:
         viscous_force_frozen<D>(g, rate, w.data(), x.data(), v.data(), J.data(), first, last,
