@@ -85,6 +85,46 @@ void batch(benchmark::State& state) {
 }
 BENCHMARK(batch)->ArgName("plastic")->Arg(0)->Arg(1);
 
+// The same points kept by component, F in and Cauchy stress out, in blocks of 128 as host programs call.
+// measure: enum cleave_stress_measure.
+void host_blocks(benchmark::State& state) {
+  Points points(false);
+  constexpr std::int64_t kHostBlock = 128;
+  std::vector<double> f(9 * kPoints), history(8 * kPoints, 0.0), stress(6 * kPoints);
+  for (std::int64_t q = 0; q < kPoints; ++q)
+    for (std::int64_t c = 0; c < 9; ++c)
+      f[static_cast<std::size_t>(kPoints * c + q)] =
+          points.h[0][static_cast<std::size_t>(9 * q + c)] + (c % 4 == 0 ? 1 : 0);
+  const std::int64_t six[9] = {0, 3, 5, 3, 1, 4, 5, 4, 2};
+  for (auto _ : state) {
+    cleave_material_call call;
+    cleave_material_call_init(&call);
+    call.material = CLEAVE_MATERIAL_j2;
+    call.kinematics = CLEAVE_3D;
+    call.property_count = 7;
+    call.properties = kSteel.data();
+    call.deformation = f.data();
+    call.deformation_is_F = 1;
+    call.history = history.data();
+    call.stress = stress.data();
+    call.deformation_point = call.history_point = call.stress_point = 1;
+    call.deformation_component = call.history_component = call.stress_component = kPoints;
+    std::copy_n(six, 9, call.stress_order);
+    call.stress_measure = static_cast<std::int32_t>(state.range(0));
+    for (call.first = 0; call.first < kPoints; call.first = call.last) {
+      call.last = call.first + kHostBlock;
+      if (cleave_material_update(&call) != CLEAVE_OK) throw std::runtime_error("no answer");
+    }
+    benchmark::ClobberMemory();
+  }
+  report(state);
+}
+BENCHMARK(host_blocks)
+    ->ArgName("measure")
+    ->Arg(CLEAVE_STRESS_CAUCHY)
+    ->Arg(CLEAVE_STRESS_COROTATED)
+    ->Arg(CLEAVE_STRESS_SECOND_PIOLA);
+
 void point_by_point(benchmark::State& state) {
   Points points(state.range(0) != 0);
   const cleave::J2Voce law(kSteel, CLEAVE_3D);

@@ -16,6 +16,7 @@ struct HostLayout {
   std::int64_t component;
   std::int64_t place[9];  // of 11 21 31 12 22 32 13 23 33; kAbsent: not there
   bool repeats;           // a place is named twice: symmetric storage
+  bool complete;          // none is absent
 
   std::int64_t of(int i, int j) const { return place[cleave::component(i, j)]; }
   // Entries from one place to the next in a matrix of components by components.
@@ -26,7 +27,7 @@ struct HostLayout {
 // its transpose.
 inline HostLayout host_layout(const char* name, std::int64_t point, std::int64_t component,
                               const std::int64_t (&order)[9]) {
-  HostLayout l{point, component, {}, false};
+  HostLayout l{point, component, {}, false, true};
   for (int k = 0; k < 9; ++k) {
     const std::int64_t place = order[k];
     if (place < kAbsent || place > 8) {
@@ -45,6 +46,7 @@ inline HostLayout host_layout(const char* name, std::int64_t point, std::int64_t
       l.repeats = true;
     }
     l.place[k] = place;
+    l.complete = l.complete && place != kAbsent;
   }
   return l;
 }
@@ -52,17 +54,19 @@ inline HostLayout host_layout(const char* name, std::int64_t point, std::int64_t
 // Components outside of D x D, and absent ones, are zero.
 template <int D>
 Mat<D> load(const double* base, const HostLayout& l, std::int64_t q) {
+  const double* from = base + l.point * q;
   Mat<D> m;
   for (int i = 0; i < D; ++i)
     for (int j = 0; j < D; ++j)
-      if (l.of(i, j) != kAbsent) m(i, j) = base[l.point * q + l.component * l.of(i, j)];
+      if (l.complete || l.of(i, j) != kAbsent) m(i, j) = from[l.component * l.of(i, j)];
   return m;
 }
 
 inline void store(const Mat<3>& m, double* base, const HostLayout& l, std::int64_t q) {
+  double* to = base + l.point * q;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
-      if (l.of(i, j) != kAbsent) base[l.point * q + l.component * l.of(i, j)] = m(i, j);
+      if (l.complete || l.of(i, j) != kAbsent) to[l.component * l.of(i, j)] = m(i, j);
 }
 
 }  // namespace cleave::abi

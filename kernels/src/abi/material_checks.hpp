@@ -25,10 +25,12 @@ inline Material make_checked(std::int32_t material, std::int32_t kinematics, std
                      count, "; see cleave_parameter_get"));
   }
   required(properties, "properties");
-  ParameterSet checked(text("material law ", entry.name), entry.parameters);
-  for (std::size_t k = 0; k < entry.parameters.size(); ++k)
-    checked.set_real(entry.parameters[k].name, properties[k]);
-  return entry.make(checked.values(), static_cast<Kinematics>(kinematics));
+  for (std::size_t k = 0; k < entry.parameters.size(); ++k) {
+    const ParameterSpec& spec = entry.parameters[k];
+    if (!allowed(spec, properties[k]))
+      refuse_value(text("material law ", entry.name), spec, properties[k]);
+  }
+  return entry.make({properties, entry.parameters.size()}, static_cast<Kinematics>(kinematics));
 }
 
 inline std::int64_t history_count(const MaterialEntry& entry) {

@@ -27,12 +27,18 @@ std::string range_text(const Range& r) {
   return out.empty() ? "any finite number" : out;
 }
 
-bool inside(const Range& r, double v) {
-  return std::isfinite(v) && (r.minimum_excluded ? v > r.minimum : v >= r.minimum) &&
-         (r.maximum_excluded ? v < r.maximum : v <= r.maximum);
+}  // namespace
+
+bool allowed(const ParameterSpec& spec, double value) {
+  const Range& r = spec.range;
+  return std::isfinite(value) && (r.minimum_excluded ? value > r.minimum : value >= r.minimum) &&
+         (r.maximum_excluded ? value < r.maximum : value <= r.maximum);
 }
 
-}  // namespace
+void refuse_value(std::string_view owner, const ParameterSpec& spec, double value) {
+  throw Error(CLEAVE_BAD_ARGUMENT, text("parameter '", spec.name, "' of ", owner, " is ", value,
+                                        " [", spec.units, "]; allowed: ", range_text(spec.range)));
+}
 
 ParameterSet::ParameterSet(std::string owner, std::span<const ParameterSpec> specs)
     : owner_(std::move(owner)), specs_(specs), values_(specs.size()), given_(specs.size(), 0) {
@@ -60,10 +66,7 @@ void ParameterSet::set_real(std::string_view name, double value) {
     throw Error(CLEAVE_WRONG_TYPE, text("parameter '", name, "' of ", owner_, " is one of ",
                                         s.choices, "; set it by name, not by the number ", value));
   }
-  if (!inside(s.range, value)) {
-    throw Error(CLEAVE_BAD_ARGUMENT, text("parameter '", name, "' of ", owner_, " is ", value, " [",
-                                          s.units, "]; allowed: ", range_text(s.range)));
-  }
+  if (!allowed(s, value)) refuse_value(owner_, s, value);
   values_[k] = value;
   given_[k] = 1;
 }

@@ -49,6 +49,11 @@ constexpr ParameterSpec choice_parameter(const char* name, const char* choices,
   return {name, "1", description, source, CLEAVE_CHOICE, {}, false, 0.0, choices, default_choice};
 }
 
+// Finite and within the range.
+bool allowed(const ParameterSpec& spec, double value);
+// Throws BAD_ARGUMENT: whose parameter it is, the value, what is allowed.
+[[noreturn]] void refuse_value(std::string_view owner, const ParameterSpec& spec, double value);
+
 // A list of parameters with a name: a parameter group, or the properties of a law.
 struct ParameterGroup {
   const char* name;

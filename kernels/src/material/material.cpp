@@ -32,9 +32,10 @@ constexpr std::array kTable = {
 std::span<const MaterialEntry> material_table() { return kTable; }
 
 const MaterialEntry& find_material(std::int32_t value) {
+  for (const auto& m : kTable)
+    if (m.value == value) return m;
   std::string known;
   for (const auto& m : kTable) {
-    if (m.value == value) return m;
     known += text(known.empty() ? "" : ", ", m.name, " = ", static_cast<int>(m.value));
   }
   throw Error(CLEAVE_UNKNOWN_NAME,
