@@ -4,6 +4,7 @@ A case is a folder with check.py, which offers
     runs(mode)             the simulations it needs, a list of simulation.Run
     check(case)            measures figures:  case.figure(quantity, value)
     pictures(case, folder) optional: writes PNG files and returns [(file name, caption)]
+    skip(case)             optional: a reason why it cannot run here, None if it can; only for what it needs from outside
 and reference.csv (see figures.py).  Physics stays in the cases; this file has none.
 """
 import argparse
@@ -38,9 +39,16 @@ class Case:
 
     def __init__(self, folder, mode):
         self.folder, self.name, self.mode = pathlib.Path(folder), pathlib.Path(folder).name, mode
-        self.results, self.notes, self.pictures = {}, [], []
+        self.results, self.notes, self.pictures, self.skipped = {}, [], [], None
+        self.cleave, self.work, self.jobs, self.evaluate = None, None, 1, False
         self.module = _load(self.folder / "check.py", self.name)
         self.ledger = figures.Ledger(self.name, self.folder, mode)
+
+    def prepare(self, options):
+        """What cases need that run other programs themselves."""
+        self.cleave, self.work, self.jobs = options.cleave, options.work / self.name, options.jobs
+        self.evaluate = options.evaluate
+        self.skipped = getattr(self.module, "skip", lambda case: None)(self)
 
     @property
     def full(self):
@@ -96,6 +104,10 @@ def _attempt(case, run, options, label):
 
 def do_case(case, options):
     """Runs, measures, judges; prints the figures of the case."""
+    case.prepare(options)
+    if case.skipped:
+        print(f"{case.name} skipped: {case.skipped}", flush=True)
+        return
     runs = case.module.runs(case.mode)
     labels = [f"[{number}/{len(runs)}] {case.name} {run.name}" for number, run in enumerate(runs, 1)]
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
@@ -123,7 +135,7 @@ def print_table(rows):
 def draw(case, folder):
     """Pictures for the report; a picture that fails is a note, never a verdict."""
     maker = getattr(case.module, "pictures", None)
-    if maker is None:
+    if maker is None or case.skipped:
         return
     folder.mkdir(parents=True, exist_ok=True)
     try:

@@ -10,6 +10,7 @@ import shutil
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 
 from . import deck as decks
 from . import results
@@ -37,7 +38,8 @@ class Run:
     """One run of a case: name, deck, what is changed in it (group.key -> value), mesh if it needs one.
 
     Without a deck: another command of cleave with its arguments, whose output is kept as NAME.csv; `inputs` are the
-    files it reads (name -> text).
+    files it reads (name -> text).  Or `work`, a function of the case that does something else in the folder of its
+    Site, such as building and running a host code (host_code.py).
     """
 
     name: str
@@ -46,6 +48,16 @@ class Run:
     mesh: Mesh | None = None
     command: tuple = ()
     inputs: dict = dataclasses.field(default_factory=dict)
+    work: Callable | None = None
+
+
+@dataclasses.dataclass(frozen=True)
+class Site:
+    """Where the work of a run is done, and with what."""
+
+    case_folder: pathlib.Path
+    folder: pathlib.Path
+    cleave: str
 
 
 class Result:
@@ -139,6 +151,10 @@ def execute(run, case_folder, folder, cleave, threads, label=None):
     if folder.exists():
         shutil.rmtree(folder)
     folder.mkdir(parents=True)
+    if run.work:
+        started = time.monotonic()
+        run.work(Site(pathlib.Path(case_folder), folder, cleave))
+        return Result(run, folder, time.monotonic() - started)
     arguments = _prepare(run, case_folder, folder)
     arguments += ["--threads", str(threads)] if run.deck else []
     log = folder / f"{run.name}.log"

@@ -7,7 +7,7 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]))
 import netCDF4  # noqa: E402
 import numpy  # noqa: E402
-from tools import cracks, curves, deck, interpolation, picture, rates, results, simulation  # noqa: E402
+from tools import cracks, curves, deck, host_code, interpolation, picture, rates, results, simulation  # noqa: E402
 
 DECK = """! a deck
 &run
@@ -173,6 +173,44 @@ class Commands(unittest.TestCase):
     def test_a_failed_command_shows_its_message(self):
         with self.assertRaisesRegex(simulation.RunError, "ended with 2.*\n.*no such law"):
             self.execute("echo no such law >&2; exit 2", simulation.Run("one", command=("point", "law")))
+
+
+class HostCodes(unittest.TestCase):
+    """With a script in the place of a compiled host."""
+
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.top = pathlib.Path(temporary.name)
+        case = self.top / "case"
+        case.mkdir()
+        (case / "Makefile").write_text("host: host.f\n\techo $(CLEAVE_PREFIX) $(FFLAGS) > $@\n\tcat host.f >> $@; chmod +x $@\n")
+        (case / "host.f").write_text("not run\n")
+        (self.top / "work").mkdir()
+        self.site = simulation.Site(case, self.top / "work", str(self.top / "prefix/bin/cleave"))
+
+    def test_an_installation_is_its_own_prefix(self):
+        self.assertEqual(host_code.install(self.site), (self.top / "prefix").resolve())
+
+    def test_build_copies_the_sources_and_hands_over_prefix_and_variables(self):
+        program = host_code.build("/opt/cleave", self.site, "host", "fast", FFLAGS="-O3 -g")
+        self.assertEqual(program, self.top / "work/build-fast/host")
+        self.assertEqual(program.read_text(), "/opt/cleave -O3 -g\nnot run\n")
+
+    def test_run_gives_the_deck_threads_and_arguments(self):
+        script = self.top / "script"
+        script.write_text("#!/bin/sh\ncat\necho $OMP_NUM_THREADS $1\nexit 3\n")
+        script.chmod(0o755)
+        listing = host_code.run(script, self.top / "work/new", "deck ", threads=4, expected=3, arguments=["a"])
+        self.assertEqual(listing, "deck 4 a\n")
+        self.assertEqual((self.top / "work/new/listing").read_text(), listing)
+        with self.assertRaisesRegex(simulation.RunError, "script ended with 3, not 0"):
+            host_code.run(script, self.top / "work/new")
+
+    def test_a_run_may_be_work_of_the_case(self):
+        run = simulation.Run("r", work=lambda site: (site.folder / "made").write_text(site.cleave))
+        result = simulation.execute(run, self.site.case_folder, self.top / "runs/r", "here", 1)
+        self.assertEqual((result.folder / "made").read_text(), "here")
 
 
 class PrintedTables(unittest.TestCase):

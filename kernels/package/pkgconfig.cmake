@@ -1,0 +1,30 @@
+# pkg-config files. `cleave` links the shared library, or with `pkg-config --static` and the linker's
+# -static everything statically; `cleave-static` links the archive beside shared system libraries, which
+# is what plug-ins want. The same two for the Fortran module.
+set(pc_folder ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+file(RELATIVE_PATH FROM_PC_TO_PREFIX ${CMAKE_INSTALL_PREFIX}/${pc_folder} ${CMAKE_INSTALL_PREFIX})
+string(REGEX REPLACE "/$" "" FROM_PC_TO_PREFIX ${FROM_PC_TO_PREFIX})
+list(TRANSFORM CLEAVE_RUNTIME PREPEND -l OUTPUT_VARIABLE runtime)
+list(JOIN runtime " " runtime)
+
+function(cleave_pkgconfig name template)
+  configure_file(${template} ${name}.pc @ONLY)
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${name}.pc DESTINATION ${pc_folder} COMPONENT development)
+endfunction()
+
+set(PC_KIND "")
+set(PC_LIBS "-L\${libdir} -lcleave")
+set(PC_LIBS_PRIVATE ${runtime})
+set(PC_LIBRARY cleave)
+cleave_pkgconfig(cleave cleave.pc.in)
+if(TARGET cleave_fortran)
+  cleave_pkgconfig(cleave-fortran cleave-fortran.pc.in)
+endif()
+set(PC_KIND " (archive)")
+set(PC_LIBS "\${libdir}/libcleave.a ${runtime}")
+set(PC_LIBS_PRIVATE "")
+set(PC_LIBRARY cleave-static)
+cleave_pkgconfig(cleave-static cleave.pc.in)
+if(TARGET cleave_fortran)
+  cleave_pkgconfig(cleave-fortran-static cleave-fortran.pc.in)
+endif()
