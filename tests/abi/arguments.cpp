@@ -53,7 +53,7 @@ TEST_F(Arguments, RangesOutsideTheArrayAreRefused) {
         }},
        {"cleave_body_reaction", "particle 27",
         [&] { return cleave_body_reaction(ready, 0, 1, &n, vec); }},
-       {"cleave_body_exempt", "range 27", [&] { return cleave_body_exempt(fresh, 0, 1, &n); }},
+       {"cleave_body_exempt", "particle 27", [&] { return cleave_body_exempt(fresh, 0, 1, &n); }},
        {"cleave_body_prescribe", "particle 27",
         [&] {
           const int32_t zero = 0, motion = 1;

@@ -359,5 +359,34 @@ TEST(Life, ReactionIsTheForceThatHoldsTheBody) {
   EXPECT_EQ(force[0], 3.24e9);
 }
 
+// A host that counts from one reads its own numbers in messages.
+TEST(Life, MessagesCountAsTheHostDoes) {
+  for (const std::int32_t base : {0, 1}) {
+    Model model;
+    ok(cleave_model_set_index_base(model, base));
+    const SimplexMesh mesh = patch(3, 2, 1.0, 0.1, 6);
+    model.add({}, mesh);
+    const auto says = [](const std::string& part) {
+      EXPECT_NE(last_message().find(part), std::string::npos) << part << ": " << last_message();
+    };
+    const std::string first = std::to_string(base), none = std::to_string(base + 27);
+    const std::int64_t wrong = 27;
+    EXPECT_EQ(cleave_body_exempt(model, 0, 1, &wrong), CLEAVE_BAD_RANGE);
+    says("body " + first + " ");
+    says("particle " + none + " of the zone without fracture does not exist; particles are " +
+         first + " to " + std::to_string(base + 26));
+    EXPECT_EQ(cleave_body_exempt(model, 3, 1, &wrong), CLEAVE_BAD_ARGUMENT);
+    says("body " + std::to_string(base + 3) + " does not exist");
+    says("counted from " + first);
+    EXPECT_EQ(cleave_model_set_index_base(model, 1), CLEAVE_WRONG_ORDER);
+    model.setup();
+    const std::int64_t pair[2] = {0, 26};
+    EXPECT_EQ(cleave_body_precrack(model, 0, 1, pair), CLEAVE_BAD_ARGUMENT);
+    says("particles " + first + " and " + std::to_string(base + 26) + " are not bonded");
+  }
+  Model model;
+  EXPECT_EQ(cleave_model_set_index_base(model, 2), CLEAVE_BAD_ARGUMENT);
+}
+
 }  // namespace
 }  // namespace cleave::test

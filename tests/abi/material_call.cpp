@@ -114,6 +114,13 @@ TEST_P(MaterialCall, ServesEveryLayoutWithTheSameBits) {
   auto call = plain.call();
   EXPECT_EQ(cleave_material_update(&call), CLEAVE_BAD_JACOBIAN);
   EXPECT_NE(last_message().find("point 11"), std::string::npos) << last_message();
+  call.index_base = 1;
+  EXPECT_EQ(cleave_material_update(&call), CLEAVE_BAD_JACOBIAN);
+  EXPECT_NE(last_message().find("point 12"), std::string::npos) << last_message();
+  plain = Host(kByPoint, kStatePoint);
+  plain.kinematics = GetParam();
+  call = plain.call();
+  cleave_material_update(&call);
   for (std::int64_t q = 0; q < kPoints; ++q) {
     EXPECT_EQ(plain.failed[static_cast<std::size_t>(3 * q)], Host::failing(q)) << q;
     EXPECT_EQ(plain.failed[static_cast<std::size_t>(3 * q + 1)], -7);
@@ -244,6 +251,7 @@ TEST(MaterialCallArguments, AreCheckedWithARemedy) {
   refused(CLEAVE_ABI_MISMATCH, "cleave_material_call_init", [](Call& c) { c.size = 8; });
   refused(CLEAVE_BAD_RANGE, "range", [](Call& c) { c.first = 5, c.last = 4; });
   refused(CLEAVE_BAD_ARGUMENT, "dt is -1", [](Call& c) { c.dt = -1; });
+  refused(CLEAVE_BAD_ARGUMENT, "index_base is 7", [](Call& c) { c.index_base = 7; });
   refused(CLEAVE_BAD_ARGUMENT, "length is", [](Call& c) { c.length = -2; });
   refused(CLEAVE_NULL_ARGUMENT, "'deformation'", [](Call& c) { c.deformation = nullptr; });
   refused(CLEAVE_NULL_ARGUMENT, "'history'", [](Call& c) { c.history = nullptr; });

@@ -168,7 +168,7 @@ struct UmatCall {
   Six strain_increment{1, 0, 0, 0, 0, 0};
   double dtime = 1e-6;
   std::vector<double> state;
-  int components = 6;
+  int components = 6, procedure = 1;
   Six stress{};
   Moduli tangent{};
   double pnewdt = -1;
@@ -177,8 +177,8 @@ struct UmatCall {
     const auto call = reinterpret_cast<Umat>(function("UMAT_" + law));
     std::string name = "@ABAQUSNL_CLEAVE_UMAT_" + law;
     name.resize(80, ' ');
-    const int three = 3, one = 1, steps[4] = {1, 1, 1, 1}, states = static_cast<int>(state.size()),
-              count = static_cast<int>(constants.size());
+    const int three = 3, one = 1, steps[4] = {1, procedure, 1, 0},
+              states = static_cast<int>(state.size()), count = static_cast<int>(constants.size());
     double unused[9] = {};
     call(stress.data(), state.data(), tangent.data(), unused, unused, unused, unused, unused,
          unused, unused, unused, strain_increment.data(), unused, &dtime, unused, unused, unused,

@@ -3,11 +3,15 @@
 // precision and the default integer of the host come from the build.
 #pragma once
 
+#include <fenv.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <latch>
+#include <limits>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -20,6 +24,9 @@ namespace cleave::test {
 
 using Real = CLEAVE_HOST_REAL;
 using Int = CLEAVE_HOST_INTEGER;
+
+// Hosts run with floating-point traps.
+inline const int kTraps = feenableexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
 
 // A law of the table with the properties that its user gives, as the host hands them on.
 struct Law {

@@ -1,4 +1,5 @@
 """What is installed, looked at from outside: installed.py CHECK PREFIX VERSION ABI."""
+import glob
 import os
 import re
 import shutil
@@ -51,6 +52,20 @@ def archive(prefix, version, abi):
     assert not starters, starters
     assert ".init_array" not in said("readelf", "-SW", f"{prefix}/lib/libcleave.a")
     assert len(set(re.findall(r"(?m) T (cleave_\w+)$", symbols))) > 50
+
+
+def adapters(prefix, version, abi):
+    """The installed adapters that need no file of a host's compile from the installed sources."""
+    folder, scratch = f"{prefix}/share/cleave/adapters", f"{prefix}/../adapters"
+    os.makedirs(scratch, exist_ok=True)
+    said("cc", "-shared", "-fPIC", "-Wl,-z,defs", f"-I{prefix}/include", *sorted(glob.glob(f"{folder}/calculix/*.c")),
+         f"-L{prefix}/lib", "-lcleave", "-lm", "-o", f"{scratch}/libCLEAVE.so")
+    shown = said("nm", "-D", "--defined-only", f"{scratch}/libCLEAVE.so")
+    wanted = re.findall(r" T (\w+)", said("nm", "-D", "--defined-only", f"{prefix}/lib/cleave/calculix/libCLEAVE.so"))
+    assert len(wanted) > 5 and set(wanted) <= set(re.findall(r" T (\w+)", shown)), (wanted, shown)
+    modules = glob.glob(f"{prefix}/include/cleave/gfortran-*")
+    for source in glob.glob(f"{folder}/common/*.f90") if modules else ():
+        said("gfortran", "-c", f"-I{modules[0]}", f"-J{scratch}", source, "-o", f"{scratch}/common.o")
 
 
 def version(prefix, version, abi):

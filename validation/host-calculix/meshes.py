@@ -10,7 +10,8 @@ def _set(name, nodes):
 
 
 def _text(points, kind, elements, sets):
-    nodes = "".join(f"{k + 1}, {x:.15g}, {y:.15g}, {z:.15g}\n" for k, (x, y, z) in enumerate(points))
+    """CalculiX reads the first 20 characters of a number: with 15 digits an exponent could be cut."""
+    nodes = "".join(f"{k + 1}, {x:.12g}, {y:.12g}, {z:.12g}\n" for k, (x, y, z) in enumerate(points))
     rows = "".join(f"{k + 1}, " + ", ".join(str(node + 1) for node in row) + "\n" for k, row in enumerate(elements))
     return (f"*NODE, NSET=NALL\n{nodes}*ELEMENT, TYPE={kind}, ELSET=ALL\n{rows}"
             + "".join(_set(name, numpy.flatnonzero(where)) for name, where in sets.items()))

@@ -35,6 +35,10 @@ HISTORY = ("plastic_metric", "equivalent_plastic_strain", "thickness_strain")
 ENERGIES = ("kinetic", "elastic", "plastic", "viscous", "external")
 
 
+def skip(case):
+    return host_code.obstacle(case.cleave)
+
+
 def runs(mode):
     return [Run("impact", work=lambda site: do_work(site, mode == "full"))]
 

@@ -1,5 +1,5 @@
 C     The restart file: the state after step ISTEP, nothing that the
-C     deck gives again.  RECORD writes and reads it.
+C     deck gives again.  RREAD reads it in the same order.
       SUBROUTINE RSAVE
       INCLUDE 'impact.inc'
       OPEN (LRES, FILE=NAME(1:LENTXT(NAME))//'.rst',

@@ -12,6 +12,8 @@ module impact
   private
   public :: impact_t, begin, step, done, finish
 
+  integer, parameter :: most = 8       ! bodies
+
   type :: control_t
     character(len=64) :: name = 'impact'
     real(dp) :: t_end = 0
@@ -73,9 +75,8 @@ contains
     character(len=*), intent(in) :: file
     type(control_t) :: run
     type(striker_t) :: ram
-    type(description_t) :: body
-    type(specimen_t) :: next
-    integer :: status
+    type(description_t) :: body, nothing, bodies(most + 1)
+    integer :: status, n, k
     namelist /control/ run
     namelist /rigid/ ram
     namelist /deformable/ body
@@ -84,20 +85,22 @@ contains
     read (10, rigid)
     it%says = run
     it%striker = ram
-    allocate (it%specimens(0))
-    do
-      body = description_t()
+    do n = 0, most
+      body = nothing
       read (10, deformable, iostat=status)
-      if (status < 0) exit
-      if (status > 0) then
-        write (error_unit, '(3a)') trim(file), ': cannot read group &deformable number ', &
-            achar(iachar('1') + size(it%specimens))
-        stop 2
-      end if
-      next%says = body
-      it%specimens = [it%specimens, next]
+      if (status /= 0) exit
+      bodies(n + 1) = body
     end do
     close (10)
+    if (status >= 0) then
+      write (error_unit, '(2a, i0, a)') file, ': cannot take group &deformable number ', &
+          min(n, most) + 1, '; it is wrong, or one too many'
+      stop 2
+    end if
+    allocate (it%specimens(n))
+    do k = 1, n
+      it%specimens(k)%says = bodies(k)
+    end do
   end subroutine read_input
 
   ! One step of velocity Verlet for bodies and striker together.

@@ -82,8 +82,8 @@ contains
     w = it%says%spin
     do i = 1, n
       r = it%mesh%X(:, i) - it%says%origin
-      it%v(:, i) = it%says%velocity + [w(2) * r(3) - w(3) * r(2), w(3) * r(1) - w(1) * r(3), &
-          w(1) * r(2) - w(2) * r(1)]
+      it%v(:, i) = it%says%velocity + [w(2) * r(3), w(3) * r(1), w(1) * r(2)] &
+          - [w(3) * r(2), w(1) * r(3), w(2) * r(1)]
     end do
     call check(cleave_field_put_real(model, it%body, 'velocity', 1, n, it%v))
   end subroutine launch

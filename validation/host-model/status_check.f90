@@ -11,7 +11,7 @@ contains
   subroutine check(status)
     integer, intent(in) :: status
     if (status == CLEAVE_OK) return
-    write (error_unit, '(a)') message_of(status)
+    write (error_unit, '(a)') trim(message_of(status))
     stop 1
   end subroutine check
 

@@ -27,6 +27,14 @@ def _call(command, folder, log, environment=None, text=None, expected=0):
     return done.stdout
 
 
+def obstacle(cleave):
+    """Why no host can be linked to the build of this executable, for skip(case); None if one can."""
+    cache = pathlib.Path(cleave).resolve().parent.parent / "CMakeCache.txt"
+    if cache.exists() and "CLEAVE_SANITIZE:BOOL=ON" in cache.read_text(encoding="utf-8"):
+        return "a library built with sanitizers wants their run time in every host"
+    return None
+
+
 def install(site):
     """The prefix of the installation that the executable belongs to; one from a build tree is installed first."""
     above = pathlib.Path(site.cleave).resolve().parent.parent

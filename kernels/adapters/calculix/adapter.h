@@ -38,6 +38,10 @@ typedef struct calculix_law {
 void calculix_stop(const char* law, const char* format, ...)
     __attribute__((noreturn, format(printf, 2, 3)));
 
+/* The same where the law has no answer and no smaller increment can be asked for. */
+void calculix_stop_without_answer(const calculix_law* law, int element, int point)
+    __attribute__((noreturn));
+
 /* The law, after its number of constants and of state variables has been compared with the deck's.
  * [out] properties (CALCULIX_PROPERTIES): the constants given, then the defaults of the others */
 const calculix_law* calculix_find(enum cleave_calculix_place place, int constants,

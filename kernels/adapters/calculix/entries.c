@@ -17,9 +17,9 @@
   CLEAVE_API void UMAT_##upper(CALCULIX_UMAT_PARAMETERS) {                                         \
     (void)sse, (void)spd, (void)scd, (void)rpl, (void)ddsddt, (void)drplde, (void)drpldt;          \
     (void)stran, (void)time, (void)temp, (void)dtemp, (void)predef, (void)dpred, (void)cmname;     \
-    (void)ndi, (void)nshr, (void)coords, (void)drot, (void)celent, (void)noel, (void)npt;          \
-    (void)layer, (void)kspt, (void)kstep, (void)kinc, (void)cmname_length;                         \
+    (void)ndi, (void)nshr, (void)coords, (void)drot, (void)celent, (void)layer, (void)kspt;        \
+    (void)kinc, (void)cmname_length;                                                               \
     calculix_umat(CLEAVE_CALCULIX_##upper, stress, statev, ddsdde, dstran, dtime, ntens, nstatv,   \
-                  props, nprops, pnewdt, dfgrd0, dfgrd1);                                          \
+                  props, nprops, pnewdt, dfgrd0, dfgrd1, noel, npt, kstep);                                          \
   }
 #include "laws.def"

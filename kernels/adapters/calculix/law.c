@@ -24,6 +24,13 @@ void calculix_stop(const char* law, const char* format, ...) {
   exit(201); /* as CalculiX itself */
 }
 
+void calculix_stop_without_answer(const calculix_law* law, int element, int point) {
+  calculix_stop(law->name,
+                "element %d, point %d: the deformation is outside the range of the law; take smaller "
+                "increments or a finer mesh there",
+                element, point);
+}
+
 static void stop_with_last_message(const char* law) {
   char text[1024] = "";
   cleave_last_message(text, (int64_t)sizeof text, NULL);

@@ -52,10 +52,6 @@ void calculix_native(enum cleave_calculix_place place, const int* iel, const int
   if (answered && *icmd != 3) store_stiffness(tangent, stiff);
   answered = calculix_answered(law, cleave_material_update(&call)) && answered;
   if (answered) return;
-  if (*icmd == 3)
-    calculix_stop(law->name,
-                  "element %d, point %d: the deformation is outside the range of the law; take smaller "
-                  "increments or a finer mesh there",
-                  *iel, *iint);
+  if (*icmd == 3) calculix_stop_without_answer(law, *iel, *iint);
   *pnewdt = 0.25;
 }

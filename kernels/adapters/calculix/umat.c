@@ -6,6 +6,8 @@
 /* Log strains are formed anew at both ends of the increment, so a zero is zero to rounding. */
 static const double kNoStrain = 1e-12;
 
+static const int kDynamic = 4; /* procedures of CalculiX in KSTEP(2) */
+
 static int is_at_rest(const double* dstran) {
   double largest = 0;
   for (int c = 0; c < 6; ++c) largest = fmax(largest, fabs(dstran[c]));
@@ -33,7 +35,7 @@ static void to_truesdell(const double* s, double J, double* c) {
 void calculix_umat(enum cleave_calculix_place place, double* stress, double* statev, double* ddsdde,
                    const double* dstran, const double* dtime, const int* ntens, const int* nstatv,
                    const double* props, const int* nprops, double* pnewdt, const double* dfgrd0,
-                   const double* dfgrd1) {
+                   const double* dfgrd1, const int* noel, const int* npt, const int* kstep) {
   double properties[CALCULIX_PROPERTIES];
   const calculix_law* law = calculix_find(place, *nprops, props, *nstatv, properties);
   if (*ntens != 6)
@@ -50,7 +52,8 @@ void calculix_umat(enum cleave_calculix_place place, double* stress, double* sta
   const int has_stress = calculix_answered(law, cleave_material_update(&call));
   if (has_tangent && has_stress) {
     to_truesdell(stress, determinant(F), ddsdde);
-  } else {
-    *pnewdt = 0.25;
+    return;
   }
+  if (kstep[1] == kDynamic) calculix_stop_without_answer(law, *noel, *npt);
+  *pnewdt = 0.25;
 }

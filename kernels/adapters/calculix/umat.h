@@ -15,7 +15,8 @@
  *   state          STATEV is already a copy of the state at the start
  *   local axes     with *ORIENTATION the stress would be in local and DFGRD1 in global axes, and nothing
  *                  tells: do not use it, the laws are isotropic
- *   no answer      PNEWDT = 0.25
+ *   no answer      PNEWDT = 0.25; in dynamic steps, KSTEP(2) = 4, explicit ones cannot be told from others
+ *                  and would go on without a stress: the program ends
  *   not touched    SSE SPD SCD RPL and the thermal derivatives
  */
 #ifndef CLEAVE_CALCULIX_UMAT_H
@@ -37,6 +38,6 @@
 void calculix_umat(enum cleave_calculix_place place, double* stress, double* statev, double* ddsdde,
                    const double* dstran, const double* dtime, const int* ntens, const int* nstatv,
                    const double* props, const int* nprops, double* pnewdt, const double* dfgrd0,
-                   const double* dfgrd1);
+                   const double* dfgrd1, const int* noel, const int* npt, const int* kstep);
 
 #endif

@@ -87,8 +87,8 @@ contains
     call arret(2)
   end subroutine radioss_stop
 
-  ! Size of an element. In another file than its loop, one element a call: gfortran makes vectors of a
-  ! loop over x**y, of another accuracy, and bits would depend on the place in the group.
+  ! Size of an element. In another file than its loop, one element a call: gfortran makes vectors of
+  ! a loop over x**y, of another accuracy, and bits would depend on the place in the group.
   recursive subroutine radioss_length(volume, length)
     real(c_double), intent(in) :: volume
     real(c_double), intent(out) :: length

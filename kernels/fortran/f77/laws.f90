@@ -25,6 +25,7 @@ contains
     c%property_count = int(nprop, c_int64_t)
     c%first = zero_based(nfirst)
     c%last = int(nlast, c_int64_t)
+    c%index_base = 1_c_int32_t
   end subroutine call_of
 
   recursive subroutine laid_out(dt, alen, isf, layd, layh, lays, c)
@@ -66,15 +67,19 @@ contains
     call tidy_flags(nfirst, nlast, ifail)
   end function update
 
-  recursive function tangent(c, prop, d, hist, t) result(status)
+  recursive function tangent(c, nfirst, nlast, prop, d, hist, t, ifail) result(status)
     type(cleave_material_call), intent(inout) :: c
+    integer, intent(in) :: nfirst, nlast
     real(c_double), intent(in) :: prop(*), d(*), hist(*)
     real(c_double), intent(inout) :: t(*)
+    integer, intent(inout) :: ifail(*)
     integer(c_int32_t) :: status
     c%properties = real_address(prop)
     c%deformation = real_address(d)
     c%history = real_address(hist)
     c%tangent = real_address(t)
+    call clear_flags(nfirst, nlast, ifail, c%failed, c%failed_point)
     status = cleave_material_tangent(c)
+    call tidy_flags(nfirst, nlast, ifail)
   end function tangent
 end module cleave77_laws

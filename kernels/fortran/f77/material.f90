@@ -51,7 +51,7 @@ end subroutine clupd
 ! Consistent tangent t, before CLUPD. itan: 0 dP/dF, 1 dS/dE, 2 Jaumann, 3 the same turned back by
 ! R. layt: strides of t from point to point and from entry to entry; meas and lays as for CLUPD.
 recursive subroutine cltan(mat, kin, nprop, prop, nfirst, nlast, dt, alen, isf, d, layd, hist, &
-    layh, itan, meas, lays, t, layt, ierr)
+    layh, itan, meas, lays, t, layt, ifail, ierr)
   use, intrinsic :: iso_c_binding, only: c_int32_t, c_int64_t, c_double
   use cleave77_laws, only: call_of, laid_out, tangent
   use cleave77_choice, only: choice
@@ -61,6 +61,7 @@ recursive subroutine cltan(mat, kin, nprop, prop, nfirst, nlast, dt, alen, isf, 
   integer, intent(in) :: lays(11), layt(2)
   real(c_double), intent(in) :: prop(*), dt, alen, d(*), hist(*)
   real(c_double), intent(inout) :: t(*)
+  integer, intent(inout) :: ifail(*)
   integer, intent(out) :: ierr
   type(cleave_material_call) :: c
   integer(c_int32_t) :: status
@@ -70,7 +71,7 @@ recursive subroutine cltan(mat, kin, nprop, prop, nfirst, nlast, dt, alen, isf, 
   c%tangent_measure = choice(itan)
   c%tangent_point = int(layt(1), c_int64_t)
   c%tangent_component = int(layt(2), c_int64_t)
-  if (status == CLEAVE_OK) status = tangent(c, prop, d, hist, t)
+  if (status == CLEAVE_OK) status = tangent(c, nfirst, nlast, prop, d, hist, t, ifail)
   ierr = status
 end subroutine cltan
 

@@ -8,6 +8,7 @@ module cleave_c_model
   private
   public :: cleave_model_create
   public :: cleave_model_destroy
+  public :: cleave_model_set_index_base
   public :: cleave_model_set_threads
   public :: cleave_body_spec_init
   public :: cleave_body_add
@@ -60,6 +61,14 @@ module cleave_c_model
       type(c_ptr), value :: model
       integer(c_int32_t) :: status
     end function cleave_model_destroy
+
+    function cleave_model_set_index_base(model, base) bind(C) result(status)
+      import :: c_ptr, c_int32_t
+      implicit none
+      type(c_ptr), value :: model
+      integer(c_int32_t), value :: base
+      integer(c_int32_t) :: status
+    end function cleave_model_set_index_base
 
     function cleave_model_set_threads(model, threads) bind(C) result(status)
       import :: c_ptr, c_int32_t

@@ -161,57 +161,62 @@ contains
     status = c_update(c)
   end function update_flat
 
-  recursive function tangent_22(call, properties, deformation, tangent, history, lengths) &
-      result(status)
+  recursive function tangent_22(call, properties, deformation, tangent, history, lengths, &
+      failed) result(status)
     type(cleave_material_call), intent(in) :: call
     real(c_double), intent(in) :: properties(:), deformation(:,:)
     real(c_double), intent(inout) :: tangent(:,:)
     real(c_double), intent(in), optional :: history(:,:), lengths(:)
+    integer(c_int32_t), intent(inout), optional :: failed(:)
     integer(c_int32_t) :: status
     status = tangent_checked(call, properties, deformation, shape(deformation), tangent, &
-        shape(tangent), history, lengths)
+        shape(tangent), history, lengths, failed)
   end function tangent_22
 
-  recursive function tangent_23(call, properties, deformation, tangent, history, lengths) &
-      result(status)
+  recursive function tangent_23(call, properties, deformation, tangent, history, lengths, &
+      failed) result(status)
     type(cleave_material_call), intent(in) :: call
     real(c_double), intent(in) :: properties(:), deformation(:,:)
     real(c_double), intent(inout) :: tangent(:,:,:)
     real(c_double), intent(in), optional :: history(:,:), lengths(:)
+    integer(c_int32_t), intent(inout), optional :: failed(:)
     integer(c_int32_t) :: status
     status = tangent_checked(call, properties, deformation, shape(deformation), tangent, &
-        shape(tangent), history, lengths)
+        shape(tangent), history, lengths, failed)
   end function tangent_23
 
-  recursive function tangent_32(call, properties, deformation, tangent, history, lengths) &
-      result(status)
+  recursive function tangent_32(call, properties, deformation, tangent, history, lengths, &
+      failed) result(status)
     type(cleave_material_call), intent(in) :: call
     real(c_double), intent(in) :: properties(:), deformation(:,:,:)
     real(c_double), intent(inout) :: tangent(:,:)
     real(c_double), intent(in), optional :: history(:,:), lengths(:)
+    integer(c_int32_t), intent(inout), optional :: failed(:)
     integer(c_int32_t) :: status
     status = tangent_checked(call, properties, deformation, shape(deformation), tangent, &
-        shape(tangent), history, lengths)
+        shape(tangent), history, lengths, failed)
   end function tangent_32
 
-  recursive function tangent_33(call, properties, deformation, tangent, history, lengths) &
-      result(status)
+  recursive function tangent_33(call, properties, deformation, tangent, history, lengths, &
+      failed) result(status)
     type(cleave_material_call), intent(in) :: call
     real(c_double), intent(in) :: properties(:), deformation(:,:,:)
     real(c_double), intent(inout) :: tangent(:,:,:)
     real(c_double), intent(in), optional :: history(:,:), lengths(:)
+    integer(c_int32_t), intent(inout), optional :: failed(:)
     integer(c_int32_t) :: status
     status = tangent_checked(call, properties, deformation, shape(deformation), tangent, &
-        shape(tangent), history, lengths)
+        shape(tangent), history, lengths, failed)
   end function tangent_33
 
   recursive function tangent_checked(call, properties, deformation, deformation_shape, &
-      tangent, tangent_shape, history, lengths) result(status)
+      tangent, tangent_shape, history, lengths, failed) result(status)
     type(cleave_material_call), intent(in) :: call
     real(c_double), intent(in) :: properties(:), deformation(*)
     integer, intent(in) :: deformation_shape(:), tangent_shape(:)
     real(c_double), intent(inout) :: tangent(*)
     real(c_double), intent(in), optional :: history(:,:), lengths(:)
+    integer(c_int32_t), intent(inout), optional :: failed(:)
     integer(c_int32_t) :: status
     type(c_material_call) :: c
     integer(c_int64_t) :: rows, columns
@@ -221,22 +226,26 @@ contains
     if (call%tangent_measure == CLEAVE_TANGENT_FIRST_PIOLA) columns = maxval(call%deformation_order)
     if (status == CLEAVE_OK) status = strided(deriving, 'tangent', call, tangent_shape, &
         rows * columns, c%tangent_point, c%tangent_component)
+    if (status == CLEAVE_OK .and. present(failed)) &
+        status = length_fits(deriving, 'failed', size(failed), call%last)
     if (status == CLEAVE_OK) &
-        status = tangent_flat(c, properties, deformation, tangent, history, lengths)
+        status = tangent_flat(c, properties, deformation, tangent, history, lengths, failed)
   end function tangent_checked
 
-  recursive function tangent_flat(c, properties, deformation, tangent, history, lengths) &
-      result(status)
+  recursive function tangent_flat(c, properties, deformation, tangent, history, lengths, &
+      failed) result(status)
     type(c_material_call), intent(inout) :: c
     real(c_double), intent(in), target :: properties(*), deformation(*)
     real(c_double), intent(inout), target :: tangent(*)
     real(c_double), intent(in), target, optional :: history(*), lengths(*)
+    integer(c_int32_t), intent(inout), target, optional :: failed(*)
     integer(c_int32_t) :: status
     c%properties = c_loc(properties)
     c%deformation = c_loc(deformation)
     c%tangent = c_loc(tangent)
     if (present(history)) c%history = c_loc(history)
     if (present(lengths)) c%lengths = c_loc(lengths)
+    if (present(failed)) c%failed = c_loc(failed)
     status = c_tangent(c)
   end function tangent_flat
 
@@ -261,6 +270,7 @@ contains
     c%deformation_is_F = call%deformation_is_F
     c%stress_measure = call%stress_measure
     c%tangent_measure = call%tangent_measure
+    c%index_base = 1_c_int32_t
     c%deformation_order = zero_based(call%deformation_order)
     c%stress_order = zero_based(call%stress_order)
     status = range_fits(procedure, call%first, call%last, huge(1_c_int64_t))

@@ -5,7 +5,8 @@ module cleave_models
       c_null_ptr, c_associated, c_loc
   use cleave_constants
   use cleave_support, only: refuse
-  use cleave_c, only: c_create => cleave_model_create, c_destroy => cleave_model_destroy, &
+  use cleave_c, only: c_create => cleave_model_create, &
+      c_index_base => cleave_model_set_index_base, c_destroy => cleave_model_destroy, &
       c_setup => cleave_model_setup, c_stable_step => cleave_model_stable_step, &
       c_initialise => cleave_model_initialise, c_advance => cleave_model_advance, &
       c_update => cleave_model_update, c_solve => cleave_model_solve_static, &
@@ -89,6 +90,7 @@ contains
     end if
     handle = c_null_ptr
     status = c_create(CLEAVE_ABI_VERSION, handle)
+    if (status == CLEAVE_OK) status = c_index_base(handle, 1_c_int32_t)
     if (status == CLEAVE_OK) model%handle = handle
   end function model_create
 

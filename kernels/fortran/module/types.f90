@@ -98,7 +98,7 @@ module cleave_types
     integer(c_int64_t) :: tangent_point = 0
     integer(c_int64_t) :: tangent_component = 0
     integer(c_int32_t) :: tangent_measure = 0
-    integer(c_int32_t) :: reserved = 0
+    integer(c_int32_t) :: index_base = 0
   end type cleave_material_call
 
   type, bind(C), public :: cleave_body_spec

@@ -315,7 +315,7 @@ typedef struct cleave_material_call {
   double* tangent;
   int64_t tangent_point, tangent_component; /* default 81, 1 */
   int32_t tangent_measure;                  /* enum cleave_tangent_measure; default dP/dF */
-  int32_t reserved;
+  int32_t index_base; /* messages count points from 0, the default, or 1; first and last from 0 */
 } cleave_material_call;
 /* Defaults: contiguous arrays in the order of this interface, all pointers NULL. */
 CLEAVE_API int32_t cleave_material_call_init(cleave_material_call* call);
@@ -349,6 +349,9 @@ typedef struct cleave_model cleave_model;
 CLEAVE_API int32_t cleave_model_create(int32_t abi, cleave_model** model);
 /* NULL is allowed. */
 CLEAVE_API int32_t cleave_model_destroy(cleave_model* model);
+/* What messages count bodies, particles and simplices from: 0, the default, or 1. Before the first
+ * body; the arguments of this interface count from 0 whatever it is. */
+CLEAVE_API int32_t cleave_model_set_index_base(cleave_model* model, int32_t base);
 /* Threads the kernels may use; default 1.  Results do not depend on it, bit for bit. */
 CLEAVE_API int32_t cleave_model_set_threads(cleave_model* model, int32_t threads);
 

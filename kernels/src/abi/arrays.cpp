@@ -22,8 +22,7 @@ const cleave_network& checked(const cleave_network* network) {
                      sizeof(cleave_network), "; call cleave_network_init first"));
   }
   check_dimension(n.dimension);
-  if (n.index_base != 0 && n.index_base != 1)
-    throw Error(CLEAVE_BAD_ARGUMENT, text("index_base is ", n.index_base, "; allowed: 0, 1"));
+  check_index_base(n.index_base);
   check_rows(0, n.particles);
   required(n.row_begin, "network row_begin");
   return n;

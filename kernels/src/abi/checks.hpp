@@ -14,6 +14,11 @@ inline void check_dimension(std::int32_t dimension) {
   }
 }
 
+inline void check_index_base(std::int32_t base) {
+  if (base != 0 && base != 1)
+    throw Error(CLEAVE_BAD_ARGUMENT, text("index_base is ", base, "; allowed: 0, 1"));
+}
+
 inline void check_rows(std::int64_t first, std::int64_t last) {
   if (first < 0 || last < first) {
     throw Error(CLEAVE_BAD_RANGE,

@@ -31,6 +31,7 @@ const cleave_material_call& checked(const cleave_material_call* call) {
     throw Error(CLEAVE_BAD_ARGUMENT, text("stress_measure is ", c.stress_measure,
                                           "; see enum cleave_stress_measure (0 to 4)"));
   }
+  check_index_base(c.index_base);
   if (c.tangent_measure < CLEAVE_TANGENT_FIRST_PIOLA ||
       c.tangent_measure > CLEAVE_TANGENT_COROTATED) {
     throw Error(CLEAVE_BAD_ARGUMENT, text("tangent_measure is ", c.tangent_measure,
@@ -268,9 +269,10 @@ void update(const cleave_material_call* call) {
   std::int64_t bad = -1;
   with_dimension(dimension_of(host.kinematics()), [&](auto d) { bad = update_points<d>(host); });
   if (bad >= 0) {
-    throw Error(CLEAVE_BAD_JACOBIAN,
-                text("law ", host.entry.name, " has no answer at point ", bad,
-                     "; its stress is zero and its history untouched; see `failed` for others"));
+    throw Error(
+        CLEAVE_BAD_JACOBIAN,
+        text("law ", host.entry.name, " has no answer at point ", bad + host.call.index_base,
+             "; its stress is zero and its history untouched; see `failed` for others"));
   }
 }
 
@@ -349,8 +351,9 @@ int32_t cleave_material_tangent(const cleave_material_call* call) {
       }
     });
     if (bad >= 0) {
-      throw Error(CLEAVE_BAD_JACOBIAN, text("law ", host.entry.name, " has no tangent at point ",
-                                            bad, "; zeros stand there; see `failed` for others"));
+      throw Error(CLEAVE_BAD_JACOBIAN,
+                  text("law ", host.entry.name, " has no tangent at point ", bad + c.index_base,
+                       "; zeros stand there; see `failed` for others"));
     }
   });
 }

@@ -3,7 +3,7 @@
 
 #include <cstring>
 
-#include "abi/guard.hpp"
+#include "abi/checks.hpp"
 #include "solver/static_solver.hpp"
 
 using namespace cleave;
@@ -74,6 +74,15 @@ int32_t cleave_model_destroy(cleave_model* model) {
   return guarded("cleave_model_destroy", [&] { delete model; });
 }
 
+int32_t cleave_model_set_index_base(cleave_model* model, int32_t base) {
+  return guarded("cleave_model_set_index_base", [&] {
+    check_index_base(base);
+    if (!checked(model).bodies.empty())
+      throw Error(CLEAVE_WRONG_ORDER, "the model has a body already; call this before the first");
+    model->index_base = base;
+  });
+}
+
 int32_t cleave_model_set_threads(cleave_model* model, int32_t threads) {
   return guarded("cleave_model_set_threads", [&] {
     if (threads < 1)
@@ -107,7 +116,8 @@ int32_t cleave_body_add(cleave_model* model, const cleave_body_spec* spec, int64
     }
     required(spec->X, "spec->X");
     if (spec->simplex_count > 0) required(spec->simplices, "spec->simplices");
-    model->bodies.push_back(std::make_unique<Body>(*spec, static_cast<int>(model->bodies.size())));
+    model->bodies.push_back(
+        std::make_unique<Body>(*spec, static_cast<int>(model->bodies.size()), model->index_base));
     *body = static_cast<int64_t>(model->bodies.size()) - 1;
   });
 }
@@ -154,7 +164,7 @@ int32_t cleave_body_exempt(cleave_model* model, int64_t body, int64_t count,
     checked(model).require(Phase::building, kBeforeSetup);
     Body& b = model->body(body);
     const auto list = span_of(particle, count, "particle");
-    for (const int64_t i : list) check_range(i, i + 1, b.particles);
+    for (const int64_t i : list) b.check_particle(i, CLEAVE_BAD_RANGE, "the zone without fracture");
     b.exempt.resize(static_cast<std::size_t>(b.particles), 0);
     for (const int64_t i : list) b.exempt[static_cast<std::size_t>(i)] = 1;
   });

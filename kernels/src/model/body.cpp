@@ -6,9 +6,10 @@
 
 namespace cleave {
 
-Body::Body(const cleave_body_spec& spec, int body_index)
+Body::Body(const cleave_body_spec& spec, int body_index, int base)
     : name(spec.name == nullptr ? "" : spec.name),
       index(body_index),
+      index_base(base),
       kinematics(static_cast<Kinematics>(spec.kinematics)),
       particles(spec.particles),
       simplex_nodes(spec.simplex_nodes == 0 ? dimension() + 1 : spec.simplex_nodes),
@@ -36,8 +37,8 @@ Body::Body(const cleave_body_spec& spec, int body_index)
   }
   for (std::int64_t k = 0; k < kVector * particles; ++k) {
     if (!std::isfinite(spec.X[k]) && k % kVector < dimension()) {
-      throw Error(CLEAVE_NOT_FINITE,
-                  text(label(), ": the position of particle ", k / kVector, " is not finite"));
+      throw Error(CLEAVE_NOT_FINITE, text(label(), ": the position of particle ",
+                                          number(k / kVector), " is not finite"));
     }
   }
   given_positions.assign(spec.X, spec.X + kVector * particles);
@@ -49,7 +50,14 @@ Body::Body(const cleave_body_spec& spec, int body_index)
 
 std::string Body::particle_label(std::int64_t i) const {
   const double* X = point.X + kVector * i;
-  return text("particle ", i, " (at X = ", X[0], ", ", X[1], ", ", X[2], ")");
+  return text("particle ", number(i), " (at X = ", X[0], ", ", X[1], ", ", X[2], ")");
+}
+
+void Body::check_particle(std::int64_t i, cleave_status status, std::string_view where) const {
+  if (i >= 0 && i < particles) return;
+  throw Error(status,
+              text(label(), ": particle ", number(i), " of ", where,
+                   " does not exist; particles are ", number(0), " to ", number(particles - 1)));
 }
 
 ParameterSet& Body::group(std::string_view group_name) {

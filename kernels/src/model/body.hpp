@@ -35,9 +35,14 @@ struct PointArrays {
 };
 
 struct Body {
-  Body(const cleave_body_spec& spec, int index);
+  // index_base: what messages count from.
+  Body(const cleave_body_spec& spec, int index, int index_base);
 
-  std::string label() const { return text("body ", index, " '", name, "'"); }
+  // For messages: the body, and an index as the host counts.
+  std::string label() const { return text("body ", index + index_base, " '", name, "'"); }
+  std::int64_t number(std::int64_t i) const { return i + index_base; }
+  // Throws `status` unless there is such a particle; `where`: what refers to it.
+  void check_particle(std::int64_t i, cleave_status status, std::string_view where) const;
   // A particle for messages: its index and where it was in the reference configuration.
   std::string particle_label(std::int64_t i) const;
   int dimension() const { return dimension_of(kinematics); }
@@ -46,7 +51,7 @@ struct Body {
   const ParameterSet& group(std::string_view group_name) const;
 
   std::string name;
-  int index;
+  int index, index_base;
   Kinematics kinematics;
   std::int64_t particles;
   std::int64_t points = 0;                    // integration points

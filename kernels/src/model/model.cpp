@@ -17,8 +17,8 @@ void cleave_model::require_set_up() const {
 cleave::Body& cleave_model::body(std::int64_t index) const {
   if (index < 0 || index >= static_cast<std::int64_t>(bodies.size())) {
     throw cleave::Error(CLEAVE_BAD_ARGUMENT,
-                        cleave::text("body ", index, " does not exist; the model has ",
-                                     bodies.size(), " bodies, counted from 0"));
+                        cleave::text("body ", index + index_base, " does not exist; the model has ",
+                                     bodies.size(), " bodies, counted from ", index_base));
   }
   return *bodies[static_cast<std::size_t>(index)];
 }
@@ -31,11 +31,7 @@ void prescribe(Body& body, std::span<const std::int64_t> particle,
   std::vector<PrescribedDof> list;
   list.reserve(particle.size());
   for (std::size_t k = 0; k < particle.size(); ++k) {
-    if (particle[k] < 0 || particle[k] >= body.particles) {
-      throw Error(CLEAVE_BAD_RANGE,
-                  text(body.label(), ": prescribed particle ", particle[k],
-                       " does not exist; particles are 0 to ", body.particles - 1));
-    }
+    body.check_particle(particle[k], CLEAVE_BAD_RANGE, "prescribed degrees of freedom");
     if (direction[k] < 0 || direction[k] >= body.dimension()) {
       throw Error(CLEAVE_BAD_ARGUMENT, text(body.label(), ": prescribed direction ", direction[k],
                                             "; allowed: 0 to ", body.dimension() - 1));
@@ -46,7 +42,7 @@ void prescribe(Body& body, std::span<const std::int64_t> particle,
     }
     char& mask = taken[static_cast<std::size_t>(particle[k])];
     if ((mask >> direction[k]) & 1) {
-      throw Error(CLEAVE_BAD_ARGUMENT, text(body.label(), ": particle ", particle[k],
+      throw Error(CLEAVE_BAD_ARGUMENT, text(body.label(), ": particle ", body.number(particle[k]),
                                             " is prescribed twice in direction ", direction[k],
                                             "; give each degree of freedom once"));
     }
@@ -85,11 +81,7 @@ void reaction(const Body& body, std::span<const std::int64_t> particles, double 
   for (int k = 0; k < 3; ++k) force[k] = 0;
   const PointArrays& pt = body.point;
   for (const std::int64_t i : particles) {
-    if (i < 0 || i >= body.particles) {
-      throw Error(CLEAVE_BAD_RANGE,
-                  text(body.label(), ": particle ", i, " does not exist; particles are 0 to ",
-                       body.particles - 1));
-    }
+    body.check_particle(i, CLEAVE_BAD_RANGE, "the reaction");
     for (int k = 0; k < 3; ++k) {
       const std::int64_t c = kVector * i + k;
       if ((mask[static_cast<std::size_t>(i)] >> k) & 1) {

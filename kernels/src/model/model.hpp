@@ -15,6 +15,7 @@ struct cleave_model {
 
   Phase phase = Phase::building;
   int threads = 1;
+  int index_base = 0;  // of messages
   cleave::Clock clock;
   std::vector<std::unique_ptr<cleave::Body>> bodies;
 

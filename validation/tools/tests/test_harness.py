@@ -73,6 +73,16 @@ class Contract(unittest.TestCase):
         self.assertEqual(done.stdout.splitlines()[-2:], ["0 missed", "1 passed, 0 failed"])
         self.assertEqual(done.returncode, 0)
 
+    def test_a_case_that_cannot_run_here_says_why(self):
+        self.write({"speed": 1.5}, "speed,both,1.6,1,2,m/s,paper,text\n")
+        with open(self.case / "check.py", "a") as file:
+            file.write("\ndef skip(case):\n    return f'no program beside {case.cleave}, for {case.work.name}'\n")
+        done = self.run_it("--report", str(self.root / "page"))
+        self.assertIn(f"made-up skipped: no program beside {self.executable}, for made-up\n", done.stdout)
+        self.assertEqual(done.stdout.splitlines()[-2:], ["0 missed", "0 passed, 0 failed"])
+        self.assertEqual(done.returncode, 0)
+        self.assertTrue((self.root / "page" / "index.html").exists())
+
     def test_a_figure_outside_its_band_fails(self):
         self.write({"speed": 2.5}, "speed,both,1.6,1,2,m/s,paper,text\n")
         done = self.run_it()

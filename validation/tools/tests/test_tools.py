@@ -192,6 +192,14 @@ class HostCodes(unittest.TestCase):
     def test_an_installation_is_its_own_prefix(self):
         self.assertEqual(host_code.install(self.site), (self.top / "prefix").resolve())
 
+    def test_sanitizers_are_an_obstacle(self):
+        cache = self.top / "prefix/CMakeCache.txt"
+        self.assertIsNone(host_code.obstacle(self.site.cleave))
+        cache.parent.mkdir()
+        for value, expected in (("OFF", None), ("ON", "a library built with sanitizers wants their run time in every host")):
+            cache.write_text(f"CLEAVE_SANITIZE:BOOL={value}\n")
+            self.assertEqual(host_code.obstacle(self.site.cleave), expected)
+
     def test_build_copies_the_sources_and_hands_over_prefix_and_variables(self):
         program = host_code.build("/opt/cleave", self.site, "host", "fast", FFLAGS="-O3 -g")
         self.assertEqual(program, self.top / "work/build-fast/host")

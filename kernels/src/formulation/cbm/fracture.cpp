@@ -330,9 +330,10 @@ void Fracture::precrack(Body& body, Network& network, std::span<const std::int64
     const std::int32_t bond = network.find_bond(pairs[k], pairs[k + 1]);
     if (bond < 0) {
       reset();  // a refused list changes nothing
-      throw Error(CLEAVE_BAD_ARGUMENT,
-                  text(body.label(), ": particles ", pairs[k], " and ", pairs[k + 1],
-                       " are not bonded; a pre-crack takes the ends of bonds"));
+      throw Error(
+          CLEAVE_BAD_ARGUMENT,
+          text(body.label(), ": particles ", body.number(pairs[k]), " and ",
+               body.number(pairs[k + 1]), " are not bonded; a pre-crack takes the ends of bonds"));
     }
     broken_.push_back(bond);
   }

@@ -13,7 +13,7 @@ void Network::build(Body& body) {
   corners = body.fields.integer("simplex_particles");
   alive = body.fields.integer("simplex_alive");
   incidence = make_incidence(body.particles, simplices, body.given_simplices.data(), corner_count,
-                             corner_count);
+                             corner_count, body.index_base);
   for (std::int64_t s = 0; s < simplices; ++s) {
     for (int a = 0; a < kStride; ++a) {
       corners[kStride * s + a] =
@@ -45,9 +45,10 @@ void Network::check_simplices(const Body& body) const {
     const std::int32_t* c = corners + kStride * s;
     if (body.dimension() == 2 ? is_degenerate<2>(X, c) : is_degenerate<3>(X, c)) {
       throw Error(CLEAVE_BAD_SIMPLEX,
-                  text(body.label(), ": simplex ", s, " of particles ", c[0], ' ', c[1], ' ', c[2],
-                       body.dimension() == 3 ? text(' ', c[3]) : "", " near (", X[kVector * c[0]],
-                       ", ", X[kVector * c[0] + 1], ", ", X[kVector * c[0] + 2],
+                  text(body.label(), ": simplex ", body.number(s), " of particles ",
+                       body.number(c[0]), ' ', body.number(c[1]), ' ', body.number(c[2]),
+                       body.dimension() == 3 ? text(' ', body.number(c[3])) : "", " near (",
+                       X[kVector * c[0]], ", ", X[kVector * c[0] + 1], ", ", X[kVector * c[0] + 2],
                        ") is degenerate: its volume is below 1e-12 of a cube on its longest edge; "
                        "repair the mesh there"));
     }

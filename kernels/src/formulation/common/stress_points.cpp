@@ -32,7 +32,8 @@ StressArrays stress_arrays(const Body& body, const Clock& clock) {
 
 std::string point_label(const Body& body, const GradientOperator& g, std::int64_t q) {
   if (g.of_particles()) return body.particle_label(q);
-  return text("integration point ", q, " beside ", body.particle_label(g.origin_of(q)));
+  return text("integration point ", body.number(q), " beside ",
+              body.particle_label(g.origin_of(q)));
 }
 
 void StressPoints::setup(const Body& body) {

@@ -41,13 +41,8 @@ void FiniteElements::setup_elements(Body& body) {
   std::int32_t* listed = body.fields.integer("simplex_particles");
   for (std::int64_t e = 0; e < elements_; ++e) {
     const std::int64_t* nodes = given + N * e;
-    for (int a = 0; a < N; ++a) {
-      if (nodes[a] < 0 || nodes[a] >= body.particles) {
-        throw Error(CLEAVE_BAD_SIMPLEX,
-                    text(body.label(), ": element ", e, " refers to particle ", nodes[a],
-                         "; particles are 0 to ", body.particles - 1));
-      }
-    }
+    for (int a = 0; a < N; ++a)
+      body.check_particle(nodes[a], CLEAVE_BAD_SIMPLEX, text("element ", body.number(e)));
     double volume = 0, longest = 0;
     for (int a = 1; a < N; ++a) {
       const Vec<D> edge = difference<D>(body.point.X, nodes[0], nodes[a]);
@@ -56,8 +51,9 @@ void FiniteElements::setup_elements(Body& body) {
     for (int q = 0; q < Q; ++q) {
       const auto g = point_geometry(quadrature[static_cast<std::size_t>(q)], body.point.X, nodes);
       if (!(g.volume > 1e-12 * std::pow(longest, 0.5 * D))) {
-        throw Error(CLEAVE_BAD_SIMPLEX, text(body.label(), ": element ", e, " beside particle ",
-                                             nodes[0], " is degenerate; repair the mesh there"));
+        throw Error(CLEAVE_BAD_SIMPLEX,
+                    text(body.label(), ": element ", body.number(e), " beside particle ",
+                         body.number(nodes[0]), " is degenerate; repair the mesh there"));
       }
       const std::int64_t point = Q * e + q;
       body.point.volume[point] = g.volume;

@@ -89,7 +89,8 @@ void Hourglass::setup(Body& body, const KernelGradient& gradient, const Kernel& 
 }
 
 template <int D>
-Vec<D> Hourglass::force_on(const PairMotion& motion, const GradientOperator& g, std::int64_t i) const {
+Vec<D> Hourglass::force_on(const PairMotion& motion, const GradientOperator& g,
+                           std::int64_t i) const {
   const bool projected = form_ == HourglassForm::projected;
   Vec<D> sum;
   for (std::int32_t b = g.row_begin[i]; b < g.row_begin[i + 1]; ++b) {
@@ -144,9 +145,9 @@ double Hourglass::diagnostic(const Body& body, const GradientOperator& g) const 
   });
 }
 
-#define CLEAVE_INSTANTIATE(D)                                                                  \
+#define CLEAVE_INSTANTIATE(D)                                                                      \
   template Vec<D> Hourglass::force_on<D>(const PairMotion&, const GradientOperator&, std::int64_t) \
-      const;                                                                                   \
+      const;                                                                                       \
   template double Hourglass::add_force<D>(const Body&, const GradientOperator&, std::int64_t,      \
                                           std::int64_t) const;
 CLEAVE_INSTANTIATE(2)

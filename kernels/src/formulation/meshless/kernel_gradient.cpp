@@ -68,13 +68,8 @@ void KernelGradient::take_simplices(Body& body) {
   std::int32_t* corners = body.fields.integer("simplex_particles");
   for (std::int64_t s = 0; s < simplices; ++s) {
     const std::int64_t* given = body.given_simplices.data() + corner_count * s;
-    for (int a = 0; a < corner_count; ++a) {
-      if (given[a] < 0 || given[a] >= body.particles) {
-        throw Error(CLEAVE_BAD_SIMPLEX,
-                    text(body.label(), ": simplex ", s, " refers to particle ", given[a],
-                         "; particles are 0 to ", body.particles - 1));
-      }
-    }
+    for (int a = 0; a < corner_count; ++a)
+      body.check_particle(given[a], CLEAVE_BAD_SIMPLEX, text("simplex ", body.number(s)));
     for (int a = 0; a < kStride; ++a) {
       corners[kStride * s + a] = a < corner_count ? static_cast<std::int32_t>(given[a]) : -1;
     }
@@ -106,8 +101,8 @@ void KernelGradient::check_distances(const Body& body) const {
       const Vec<3> d = difference<3>(X, i, p);
       if (!(dot(d, d) > 0)) {
         throw Error(CLEAVE_BAD_ARGUMENT,
-                    text(body.label(), ": ", body.particle_label(i), " and particle ", p,
-                         " are at the same place; leave one out"));
+                    text(body.label(), ": ", body.particle_label(i), " and particle ",
+                         body.number(p), " are at the same place; leave one out"));
       }
     }
   }

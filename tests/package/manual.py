@@ -1,4 +1,6 @@
-"""Tries the link lines of the manual's table: link_lines.py PAGE HOST.c PREFIX WORK C_COMPILER."""
+"""Tries the manual: the link lines of its table, and its Makefile with the host in Fortran 77.
+
+    manual.py PAGE HOST.c HOST.f PREFIX WORK C_COMPILER"""
 import ctypes
 import os
 import re
@@ -7,19 +9,31 @@ import subprocess
 import sys
 
 
-def main(page, host, prefix, work, compiler):
+def main(page, host, host77, prefix, work, compiler):
     shutil.rmtree(work, ignore_errors=True)
     os.makedirs(work)
     os.chdir(work)
     environment = {"PATH": os.environ["PATH"], "P": prefix, "LC_ALL": "C"}
     subprocess.run([compiler, "-fPIC", "-c", f"-I{prefix}/include", host, "-o", "host.o"], check=True, env=environment)
     with open(page, encoding="utf-8") as file:
-        rows = re.findall(r"(?m)^\| `(\w[^`]* host\.o[^`]*)` \| (.*) \|$", file.read())
+        text = file.read()
+    rows = re.findall(r"(?m)^\| `(\w[^`]* host\.o[^`]*)` \| (.*) \|$", text)
     assert len(rows) > 10, rows
     wrong = [f"{line}\n  manual: {expected}\n  here: {found}" for line, expected in rows
              for found in [attempt(line, environment)] if not agrees(expected, *found)]
     if wrong:
         sys.exit("\n".join(wrong))
+    if shutil.which("make"):
+        make(re.search(r"```make\n(.*?)```", text, flags=re.S).group(1), host77,
+             {**environment, "PKG_CONFIG_PATH": f"{prefix}/lib/pkgconfig"})
+
+
+def make(recipe, host, environment):
+    with open("Makefile", "w", encoding="utf-8") as file:
+        file.write(recipe)
+    shutil.copy(host, ".")
+    subprocess.run(["make", "-s"], check=True, env=environment)
+    subprocess.run(["./host"], check=True, env={"PATH": environment["PATH"]})
 
 
 def attempt(line, environment):
