@@ -129,6 +129,19 @@ TEST_F(Umat, GivesTheBitsOfTheDirectCallForEveryLaw) {
   }
 }
 
+TEST_F(Umat, ServesLawsWithoutHistoryWithoutStateVariables) {
+  for (const Law& law : laws(46)) {
+    if (law.history > 0) continue;
+    Point point(law, 0), flagged(law, 1);
+    point.after[0][1] = flagged.after[0][1] = 0.01;
+    point.call();
+    flagged.call();
+    EXPECT_TRUE(errors.texts.empty());
+    EXPECT_EQ(point.stress, flagged.stress);
+    EXPECT_EQ(point.statev[0], -77);
+  }
+}
+
 // d tau/dt for a stretching D without spin is the Jaumann rate; F -> (I + h D) F. linear_elastic has no
 // such moduli: it is not objective, and its P F^T is not symmetric.
 TEST_F(Umat, GivesTheModuliOfTheJaumannRate) {

@@ -112,7 +112,7 @@ TEST_F(Vumat, ServesLawsWithoutHistoryWithoutStateVariables) {
     if (law.history == 0) compare(law, 20, 3, 0, random);
 }
 
-// What is exact: the wave speeds of Hooke's law, from lambda and mu by E and nu or by rho c0^2.
+// Hooke's law with lambda and mu from E and nu, or from rho c0^2 and G.
 TEST_F(Vumat, AnswersTheDataCheckElastically) {
   Random random(5);
   for (const Law& law : laws(19)) {
@@ -137,8 +137,8 @@ TEST_F(Vumat, AnswersTheDataCheckElastically) {
         for (std::size_t c = 0; c < 3; ++c)
           volume += static_cast<double>(block.at(block.strain_inc, k, c));
         const double size = 1e-3 * (std::fabs(moduli.lambda) + 2 * moduli.mu) * 3;
-        // Measured in parts of `size` with REAL*8: 1e-15; 8e-6 where the tangent is by differences
-        // (laws with an equation of state, whose pressure has a bend at rest).
+        // Measured in parts of `size`: half a rounding; 5e-6 where the tangent is by differences (laws
+        // with an equation of state, whose pressure has a bend at rest).
         const bool eos = law.name == "mie_gruneisen" || law.name == "johnson_cook_eos";
         const double allowed = eos ? 3e-5 : 4 * static_cast<double>(kRounding);
         for (std::size_t c = 0; c < block.components(); ++c) {
@@ -199,13 +199,11 @@ TEST_F(Vumat, BooksTheWorkOfTheStress) {
       }
       block.advance();
     }
-    // Measured, REAL*8: 4e-4 where the rule of the law is implicit Euler's, 2e-7 elastic. REAL*4: the
-    // stretch has seven digits, the steps are 5e-5.
-    const double allowed = sizeof(Real) == 8 ? 1e-3 : 2e-2;
-    EXPECT_NEAR(static_cast<double>(block.intern_new[0]), work, allowed * work);
+    // Measured, with either precision: 1e-5 (rate-dependent; else 5e-7) and 9e-5.
+    EXPECT_NEAR(static_cast<double>(block.intern_new[0]), work, 5e-5 * work);
     if (metal) {
       EXPECT_GT(plastic_work, 0.5 * work);
-      EXPECT_NEAR(static_cast<double>(block.inelas_new[0]), plastic_work, allowed * work);
+      EXPECT_NEAR(static_cast<double>(block.inelas_new[0]), plastic_work, 5e-4 * work);
     }
   }
 }
@@ -300,6 +298,29 @@ TEST_F(Vumat, DeletesWhatTheLawCallsFailed) {
     EXPECT_LT(died, 40);
   }
   EXPECT_GT(tried, 0);
+}
+
+// The deck of the manual: its numbers by the closed form of uniaxial tension, ln 1.2 = tau/E + eps_p.
+TEST_F(Vumat, PullsTheElementOfTheManual) {
+  Law law = law_called("j2_power");
+  law.properties = {7.85e-9, 206900, 0.29, 450, 0.00217, 0.2};
+  double plastic = 0.17, tau = 0;
+  for (int k = 0; k < 100; ++k) {
+    tau = 450 * std::pow(1 + plastic / 0.00217, 0.2);
+    plastic = std::log(1.2) - tau / 206900;
+  }
+  EXPECT_NEAR(plastic, 0.177, 5e-4);
+  Block block(law, 1, 3, law.history + 1);
+  const double across = std::exp(-0.29 * tau / 206900 - 0.5 * plastic);
+  block.put(block.stretch_new, 0, {{{1.2, 0, 0}, {0, across, 0}, {0, 0, across}}});
+  block.call();
+  const double stress = static_cast<double>(block.at(block.stress_new, 0, 0));
+  EXPECT_NEAR(stress, 1086, 1);
+  // Measured: 2e-11; 7e-3 with REAL*4, a rounding of the stretch times E.
+  const double allowed = sizeof(Real) == 8 ? 1e-9 : 0.05;
+  EXPECT_NEAR(stress, tau / (1.2 * across * across), allowed);
+  EXPECT_NEAR(static_cast<double>(block.at(block.stress_new, 0, 1)), 0, allowed);
+  EXPECT_NEAR(static_cast<double>(block.at(block.state_new, 0, 6)), plastic, 1e-6);
 }
 
 TEST_F(Vumat, AnnealingClearsTheHistory) {

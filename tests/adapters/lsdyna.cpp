@@ -315,6 +315,11 @@ TEST_F(LsDyna, RefusesWrongCards) {
     block.cm = card(law);
     block.cm[law.properties.size()] *= static_cast<Real>(0.9);
     expect_stop(call, "bulk");
+    if (lame(law).mu > 0) {
+      block.cm = card(law);
+      block.cm[law.properties.size() + 1] *= static_cast<Real>(0.9);
+      expect_stop(call, "shear");
+    }
     block.time = 1;  // checked once
     stops = 0;
     call();
@@ -329,16 +334,20 @@ TEST_F(LsDyna, RefusesWrongCards) {
   }
 }
 
-// IHYPER or NHV forgotten: zeros stand where F should be.
+// IHYPER forgotten or NHV wrong: zeros stand where a column of F should be.
 TEST_F(LsDyna, MissesTheDeformationGradient) {
   std::size_t slot = 0;
   for (const Law& law : laws(76)) {
     const std::size_t number = slot++;
     SCOPED_TRACE(law.name);
-    Block block(law, number);
-    for (std::size_t k = 0; k < kLeading; ++k) block.put(k, {});
-    expect_stop([&] { block.call(1, 10); },
-                "IHYPER = 1 and NHV = " + std::to_string(law.history + 1));
+    for (std::size_t column = 0; column < 3; ++column) {
+      Matrix3 F = kUnit;
+      F[column][column] = 0;
+      Block block(law, number);
+      for (std::size_t k = 0; k < kLeading; ++k) block.put(k, F);
+      expect_stop([&] { block.call(1, 10); },
+                  "IHYPER = 1 and NHV = " + std::to_string(law.history + 1));
+    }
   }
 }
 

@@ -1,4 +1,4 @@
-! Array calls from Fortran give the bits of C: the same kernels behind other shapes, layouts and kinds.
+! Array calls from Fortran give the bits of C: the same kernels behind other shapes, layouts, kinds.
 program array_calls
   use, intrinsic :: iso_c_binding, only: c_int32_t, c_int64_t, c_double
   use cleave
@@ -65,8 +65,8 @@ contains
     call ok(cleave_material_history_count(CLEAVE_MATERIAL_j2, variables))
     allocate (history(variables, n))
     history = 0
-    call ok(cleave_material_stress(CLEAVE_MATERIAL_j2, kinematics, reals('properties'), first, last, &
-        H, history, P, energy, failed))
+    call ok(cleave_material_stress(CLEAVE_MATERIAL_j2, kinematics, reals('properties'), first, &
+        last, H, history, P, energy, failed))
     call same_reals('P', reshape(P, [9 * n]))
     call same_reals('history', reshape(history, [size(history)]))
     call same_reals('energy', energy)
@@ -93,7 +93,8 @@ contains
 
     n = size(reals('volume'), kind=c_int64_t)
     X = transpose(reshape(reals('X'), [3, int(n)]))
-    simplices = reshape(integers('simplices') + 1_c_int64_t, [dimension + 1, size(integers('alive'))])
+    simplices = reshape(integers('simplices') + 1_c_int64_t, &
+        [dimension + 1, size(integers('alive'))])
     alive = int(integers('alive'), c_int32_t)
     call ok(cleave_network_init(network))
     network%dimension = int(dimension, c_int32_t)

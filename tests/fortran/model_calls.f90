@@ -1,5 +1,5 @@
-! A model driven from Fortran gives the bits of one driven from C, also with another model beside it, and
-! after its state went through named fields into a new one.
+! A model driven from Fortran gives the bits of one driven from C, also with another model beside it,
+! and after its state went through named fields into a new one.
 program model_calls
   use, intrinsic :: iso_c_binding, only: c_int32_t, c_int64_t, c_double
   use cleave
@@ -172,7 +172,8 @@ contains
     call ok(cleave_field_count(before, body, fields))
     do k = 1, fields
       call ok(cleave_field_get(before, body, k, field))
-      if (field%lifetime /= CLEAVE_LIFETIME_SETUP .and. field%lifetime /= CLEAVE_LIFETIME_STATE) cycle
+      if (field%lifetime /= CLEAVE_LIFETIME_SETUP .and. &
+          field%lifetime /= CLEAVE_LIFETIME_STATE) cycle
       entries = int(field%count, kind(entries))
       if (field%type == CLEAVE_REAL) then
         allocate (values(field%components, entries))

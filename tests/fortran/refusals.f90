@@ -1,5 +1,5 @@
-! Input that is wrong is answered with a status and a message that says what was given and what is needed;
-! nothing crashes, and the next correct call works.
+! Input that is wrong is answered with a status and a message that says what was given and what is
+! needed; nothing crashes, and the next correct call works.
 program refusals
   use, intrinsic :: iso_c_binding, only: c_int32_t, c_int64_t, c_double, c_ptr, c_associated
   use cleave
@@ -158,8 +158,8 @@ contains
     call refused(cleave_material_stress(CLEAVE_MATERIAL_neo_hooke, CLEAVE_3D, properties, 1, 5, H, &
         P=P, failed=failed), CLEAVE_BAD_JACOBIAN, 'point 4')
     call require(all(failed == [0, 0, 0, 1, 0]), 'the point without an answer is marked')
-    call refused(cleave_material_wave_speed(CLEAVE_MATERIAL_svk, CLEAVE_3D, properties(:1), speed), &
-        CLEAVE_BAD_ARGUMENT, '1|3')
+    call refused(cleave_material_wave_speed(CLEAVE_MATERIAL_svk, CLEAVE_3D, properties(:1), &
+        speed), CLEAVE_BAD_ARGUMENT, '1|3')
     call refused(cleave_material_history_count(77_c_int32_t, variables), CLEAVE_UNKNOWN_NAME, '77')
     call refused(cleave_material_damage_place(77_c_int32_t, variables), CLEAVE_UNKNOWN_NAME, '77')
     call refused(cleave_ramp(9_c_int32_t, 1.0_c_double, 1.0_c_double, 1.0_c_double), &
@@ -328,10 +328,10 @@ contains
         CLEAVE_UNKNOWN_NAME, 'Youngs|plate')
     call refused(cleave_body_set_real(model, body, 'nothing', 'E', 1.0_c_double), &
         CLEAVE_UNKNOWN_NAME, 'nothing')
-    call refused(cleave_body_set_real(model, 0, 'material', 'E', 1.0_c_double), CLEAVE_BAD_RANGE, &
-        'body 0')
-    call refused(cleave_body_set_real(model, 2, 'material', 'E', 1.0_c_double), CLEAVE_BAD_RANGE, &
-        'body 2')
+    call refused(cleave_body_set_real(model, 0, 'material', 'E', 1.0_c_double), &
+        CLEAVE_BAD_ARGUMENT, 'body 0|counted from 1')
+    call refused(cleave_body_set_real(model, 2, 'material', 'E', 1.0_c_double), &
+        CLEAVE_BAD_ARGUMENT, 'body 2')
     call refused(cleave_body_set_choice(model, body, 'viscosity', 'form', 'thick'), &
         CLEAVE_UNKNOWN_NAME, 'thick')
     call refused(cleave_body_prescribe(model, body, [1, 2], [1], &
@@ -356,7 +356,8 @@ contains
     call require(value == 3.24e9_c_double, 'blanks around names do not count')
     call ok(cleave_body_prescribe(model, body, [1], [1], [CLEAVE_MOTION_EXACT]))
     call ok(cleave_model_setup(model))
-    call refused(cleave_body_precrack(model, body, reshape([2, 4], [2, 1])), CLEAVE_BAD_ARGUMENT, '')
+    call refused(cleave_body_precrack(model, body, reshape([2, 4], [2, 1])), &
+        CLEAVE_BAD_ARGUMENT, '')
     call refused(cleave_body_precrack(model, body, reshape([2, 4], [1, 2])), CLEAVE_BAD_ARGUMENT, &
         '''pairs''|(1,2)|(2,0)')
     call refused(cleave_body_motion(model, body, [1.0_c_double, 2.0_c_double]), &
@@ -364,11 +365,12 @@ contains
     call refused(cleave_body_motion(model, body, [1.0_c_double], [1.0_c_double, 2.0_c_double]), &
         CLEAVE_BAD_ARGUMENT, '''acceleration''|(2)|(1), as displacement')
     call refused(cleave_field_find(model, body, 'mas', field), CLEAVE_UNKNOWN_NAME, 'mas')
-    call refused(cleave_field_get_real(model, body, 'mas', 1, 4, values), CLEAVE_UNKNOWN_NAME, 'mas')
+    call refused(cleave_field_get_real(model, body, 'mas', 1, 4, values), &
+        CLEAVE_UNKNOWN_NAME, 'mas')
     call refused(cleave_field_get_real(model, body, 'mass', 1, 5, values), CLEAVE_BAD_RANGE, &
         '1 to 5|1 to 4')
-    call refused(cleave_field_get_real(model, body, 'mass', 1, 4, values(:3)), CLEAVE_BAD_ARGUMENT, &
-        '''values''|(3)|(4) or more')
+    call refused(cleave_field_get_real(model, body, 'mass', 1, 4, values(:3)), &
+        CLEAVE_BAD_ARGUMENT, '''values''|(3)|(4) or more')
     call refused(cleave_field_get_real(model, body, 'velocity', 1, 4, X(:2, :)), &
         CLEAVE_BAD_ARGUMENT, '''values''|(2,4)|(3,4) or more')
     call refused(cleave_field_put_real(model, body, 'velocity', 1, 4, values), &

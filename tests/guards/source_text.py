@@ -10,6 +10,8 @@ LONGEST_FILE = 700  # lines; aim at 400
 QUIET = ("kernels/", "io/", "tests/kernels/", "tests/properties/", "tests/abi/", "tests/io/", "tests/driver/",
          "tests/support/")
 LIBRARIES = ("kernels/", "io/")
+# On the host's side of the interface: CalculiX learns of a wrong deck in no other way.
+SPEAKERS = ("kernels/adapters/calculix/law.c",)
 SEED = "use a generator with a written seed, so that a failure can be repeated"
 
 # (pattern, patterns of paths, folders, comments too?, complaint)
@@ -36,6 +38,8 @@ def check(tree):
     complaints = []
     for pattern, kinds, folders, comments, remedy in RULES:
         paths = [path for path in tree.paths(*kinds, under=folders) if not path.startswith("tests/guards/")]
+        if folders in (QUIET, LIBRARIES):
+            paths = [path for path in paths if path not in SPEAKERS]
         if folders is QUIET:  # what a program of its own prints is its product
             paths = [path for path in paths if not re.search(r"\bint main\(", tree.text(path))]
         code = [path for path in paths if path.endswith((".c", ".h", ".cpp", ".hpp", ".def"))]

@@ -55,7 +55,7 @@ def check_contents(name, path, version, abi):
         wanted = ("include/cleave/cleave.h", "include/cleave/version.h", "include/cleave/tables/status.def",
                   "lib/libcleave.a", "lib/libcleave.so", "lib/pkgconfig/cleave.pc",
                   "lib/cmake/Cleave/CleaveConfig.cmake", "share/cleave/fortran/cleave.f90",
-                  "share/cleave/fortran/cleave77.f90")
+                  "share/cleave/fortran/cleave77.f90", "share/doc/cleave/examples/c/host.c")
         assert not {f"/usr/{file}" for file in wanted} - set(files), files
 
 

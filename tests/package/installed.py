@@ -8,7 +8,10 @@ import sys
 
 
 def said(*command):
-    return subprocess.run(command, check=True, capture_output=True, text=True, env={"PATH": os.environ["PATH"]}).stdout
+    done = subprocess.run(command, capture_output=True, text=True, env={"PATH": os.environ["PATH"]}, check=False)
+    if done.returncode:
+        sys.exit(f"{' '.join(command)}\nreturned {done.returncode}\n{done.stdout}{done.stderr}")
+    return done.stdout
 
 
 def exports(prefix, version, abi):

@@ -56,7 +56,8 @@ def program():
 def library(cleave):
     """Folder of libCLEAVE.so that belongs to the program cleave, or None."""
     top = pathlib.Path(cleave).resolve().parents[1]
-    places = [top / "kernels/adapters/calculix", *sorted(top.glob("lib*")), *sorted(top.glob("lib*/*"))]
+    places = [top / "kernels/adapters/calculix", *sorted(top.glob("lib*/cleave/calculix")),
+              *sorted(top.glob("lib*/*/cleave/calculix"))]
     given = os.environ.get("CLEAVE_CALCULIX")
     for place in [pathlib.Path(given).parent] if given else places:
         if (place / "libCLEAVE.so").is_file():

@@ -25,10 +25,11 @@ void calculix_stop(const char* law, const char* format, ...) {
 }
 
 void calculix_stop_without_answer(const calculix_law* law, int element, int point) {
-  calculix_stop(law->name,
-                "element %d, point %d: the deformation is outside the range of the law; take smaller "
-                "increments or a finer mesh there",
-                element, point);
+  calculix_stop(
+      law->name,
+      "element %d, point %d: the deformation is outside the range of the law; take smaller "
+      "increments or a finer mesh there",
+      element, point);
 }
 
 static void stop_with_last_message(const char* law) {
@@ -64,13 +65,14 @@ const calculix_law* calculix_find(enum cleave_calculix_place place, int constant
   pthread_once(&looked_up, look_up);
   const calculix_law* law = &laws[place];
   if (constants != law->constants)
-    calculix_stop(law->name,
-                  "*USER MATERIAL, CONSTANTS=%d was given; it takes %lld, in the order of `cleave keys "
-                  "material`%s",
-                  constants, (long long)law->constants,
-                  law->constants < law->properties
-                      ? "; CalculiX has no room for more, the others keep their defaults"
-                      : "");
+    calculix_stop(
+        law->name,
+        "*USER MATERIAL, CONSTANTS=%d was given; it takes %lld, in the order of `cleave keys "
+        "material`%s",
+        constants, (long long)law->constants,
+        law->constants < law->properties
+            ? "; CalculiX has no room for more, the others keep their defaults"
+            : "");
   if (state_variables < law->history)
     calculix_stop(law->name, "*DEPVAR gives %d state variables; write *DEPVAR with at least %lld",
                   state_variables, (long long)law->history);

@@ -11,10 +11,11 @@ static const double* meant_gradient(const calculix_law* law, int element, const 
                                     const double* xokl, const double* xkl) {
   if (calculix_strain_difference(xkl, emec) <= kSameStrain) return xkl;
   if (calculix_strain_difference(xokl, emec) <= kSameStrain) return xokl;
-  calculix_stop(law->name,
-                "in element %d the strain is not that of the deformation gradient; write *STEP, NLGEOM, "
-                "and leave out *EXPANSION and initial strains, which the law does not know",
-                element);
+  calculix_stop(
+      law->name,
+      "in element %d the strain is not that of the deformation gradient; write *STEP, NLGEOM, "
+      "and leave out *EXPANSION and initial strains, which the law does not know",
+      element);
 }
 
 static void store_stiffness(const double* tangent, double* stiff) {
@@ -24,10 +25,9 @@ static void store_stiffness(const double* tangent, double* stiff) {
 
 void calculix_native(enum cleave_calculix_place place, const int* iel, const int* iint,
                      const int* kode, const double* elconloc, const double* emec,
-                     const double* beta, const double* xokl, const double* xkl,
-                     const double* dtime, const int* icmd, const int* mi, const int* nstate,
-                     const double* xstateini, double* xstate, double* stre, double* stiff,
-                     double* pnewdt) {
+                     const double* beta, const double* xokl, const double* xkl, const double* dtime,
+                     const int* icmd, const int* mi, const int* nstate, const double* xstateini,
+                     double* xstate, double* stre, double* stiff, double* pnewdt) {
   double properties[CALCULIX_PROPERTIES], tangent[36];
   const calculix_law* law = calculix_find(place, -*kode - 100, elconloc, *nstate, properties);
   for (int c = 0; c < 6; ++c)
@@ -35,7 +35,8 @@ void calculix_native(enum cleave_calculix_place place, const int* iel, const int
       calculix_stop(law->name, "element %d has an initial stress, which the law does not know",
                     *iel);
 
-  const size_t column = (size_t)*nstate * ((size_t)(*iint - 1) + (size_t)mi[0] * (size_t)(*iel - 1));
+  const size_t column =
+      (size_t)*nstate * ((size_t)(*iint - 1) + (size_t)mi[0] * (size_t)(*iel - 1));
   double* history = xstate + column;
   if (*nstate > 0) memcpy(history, xstateini + column, (size_t)*nstate * sizeof(double));
 

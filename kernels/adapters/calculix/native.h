@@ -28,20 +28,19 @@
 
 #include "adapter.h"
 
-#define CALCULIX_NATIVE_PARAMETERS                                                                 \
-  const char *amat, const int *iel, const int *iint, const int *kode, const double *elconloc,      \
-      const double *emec, const double *emec0, const double *beta, const double *xokl,             \
-      const double *voj, const double *xkl, const double *vj, const int *ithermal,                 \
-      const double *t1l, const double *dtime, const double *time, const double *ttime,             \
-      const int *icmd, const int *ielas, const int *mi, const int *nstate,                         \
-      const double *xstateini, double *xstate, double *stre, double *stiff, const int *iorien,     \
+#define CALCULIX_NATIVE_PARAMETERS                                                             \
+  const char *amat, const int *iel, const int *iint, const int *kode, const double *elconloc,  \
+      const double *emec, const double *emec0, const double *beta, const double *xokl,         \
+      const double *voj, const double *xkl, const double *vj, const int *ithermal,             \
+      const double *t1l, const double *dtime, const double *time, const double *ttime,         \
+      const int *icmd, const int *ielas, const int *mi, const int *nstate,                     \
+      const double *xstateini, double *xstate, double *stre, double *stiff, const int *iorien, \
       const double *pgauss, const double *orab, double *pnewdt, const int *ipkon, int amat_length
 
 void calculix_native(enum cleave_calculix_place place, const int* iel, const int* iint,
                      const int* kode, const double* elconloc, const double* emec,
-                     const double* beta, const double* xokl, const double* xkl,
-                     const double* dtime, const int* icmd, const int* mi, const int* nstate,
-                     const double* xstateini, double* xstate, double* stre, double* stiff,
-                     double* pnewdt);
+                     const double* beta, const double* xokl, const double* xkl, const double* dtime,
+                     const int* icmd, const int* mi, const int* nstate, const double* xstateini,
+                     double* xstate, double* stre, double* stiff, double* pnewdt);
 
 #endif

@@ -39,7 +39,8 @@ void calculix_umat(enum cleave_calculix_place place, double* stress, double* sta
   double properties[CALCULIX_PROPERTIES];
   const calculix_law* law = calculix_find(place, *nprops, props, *nstatv, properties);
   if (*ntens != 6)
-    calculix_stop(law->name, "%d stress components are asked for; it has 6, for solid elements", *ntens);
+    calculix_stop(law->name, "%d stress components are asked for; it has 6, for solid elements",
+                  *ntens);
 
   const double* F = is_at_rest(dstran) ? dfgrd0 : dfgrd1;
   cleave_material_call call;

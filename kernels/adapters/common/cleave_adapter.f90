@@ -1,13 +1,13 @@
-! What the Fortran adapters of host programs share: a law by its name in the host, its counts, and the
-! update of a block of points in REAL*8 or REAL*4. An adapter permutes, scales and converts; the
+! What the Fortran adapters of host programs share: a law by its name in the host, its counts, and
+! the update of a block of points in REAL*8 or REAL*4. An adapter permutes, scales and converts; the
 ! physics is in the library. Not an interface for programs of your own: use the module `cleave`.
 !
 !   blocks       a(leading, component), points 1 to n of the first index. A single point is a block
 !                with leading dimension 1, a(component).
 !   precision    REAL*8 blocks are served where they stand. REAL*4 blocks are converted to REAL*8 in
 !                pieces, on the stack, and the results rounded.
-!   threads      nothing is kept between calls, nothing is allocated; every procedure is RECURSIVE, so
-!                that its arrays are on the stack of the thread with any compiler option.
+!   threads      nothing is kept between calls and nothing allocated here; every procedure is
+!                RECURSIVE, so that its arrays are on the stack of the thread with any option.
 !   errors       status 0, or a status of the library; adapter_message then has the text. A point
 !                without an answer is no error: failed = 1, stress zero, history untouched.
 module cleave_adapter
@@ -85,8 +85,8 @@ module cleave_adapter
 
 contains
 
-  ! The law called `name`, in any case, blank-padded. Looked up on every call, nothing is kept, so that
-  ! there is nothing to initialise or to lock: measured 0.2 us, as long as the update of two points.
+  ! The law called `name`, in any case, blank-padded. Looked up on every call, nothing is kept, so
+  ! that there is nothing to initialise or to lock: 0.2 us, as long as the update of two points.
   recursive subroutine adapter_find_law(name, law, status)
     character(len=*), intent(in) :: name
     type(adapter_law), intent(out) :: law

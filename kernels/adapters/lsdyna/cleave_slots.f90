@@ -1,13 +1,13 @@
-! What the owner of an LS-DYNA executable decides: which law stands behind which user material, and what
-! happens on an error. LS-DYNA's cards hold numbers only, so the law is chosen here: the number after
-! umat, MT on the card. This is the only file of the adapter that is meant to be changed.
+! What the owner of an LS-DYNA executable decides: which law stands behind which user material, and
+! what happens on an error. LS-DYNA's cards hold numbers only, so the law is chosen here: the number
+! after umat, MT on the card. This is the only file of the adapter that is meant to be changed.
 module cleave_slots
   implicit none
   private
   public :: cleave_slot, cleave_slot_count, cleave_slots_table, cleave_stop_host
 
-  ! `plastic_strain`: the place, from 1, of the equivalent plastic strain in the history of the law, for
-  ! LS-DYNA's effective plastic strain; 0: the law has none. The history is listed in the manual.
+  ! `plastic_strain`: the place, from 1, of the equivalent plastic strain in the history of the law,
+  ! for LS-DYNA's effective plastic strain; 0: the law has none. The manual lists the history.
   type :: cleave_slot
     integer :: number
     character(len=32) :: law
@@ -28,7 +28,7 @@ module cleave_slots
 
 contains
 
-  ! Called with the text of an error. adios(2) is LS-DYNA's own orderly end with an error; the messages
+  ! Called with the text of an error. adios(2) is LS-DYNA's own orderly end with an error; messages
   ! of user materials go to the standard output.
   recursive subroutine cleave_stop_host(message)
     character(len=*), intent(in) :: message

@@ -108,14 +108,15 @@ int32_t cleave_table_get(int32_t table, int64_t index, cleave_table_entry* entry
 int32_t cleave_table_find(int32_t table, const char* name, int32_t* value) {
   return guarded("cleave_table_find", [&] {
     required(name, "name");
-    std::string known;
-    for (const auto& e : entries_of(table)) {
+    const auto entries = entries_of(table);
+    for (const auto& e : entries) {
       if (std::strcmp(e.name, name) == 0) {
         required(value, "value") = e.value;
         return;
       }
-      known += text(known.empty() ? "" : ", ", e.name);
     }
+    std::string known;
+    for (const auto& e : entries) known += text(known.empty() ? "" : ", ", e.name);
     throw Error(CLEAVE_UNKNOWN_NAME, text("'", name, "' is unknown; known names: ", known));
   });
 }

@@ -74,15 +74,13 @@ std::span<const TableEntry> formulation_table() { return kFormulations; }
 std::span<const ParameterGroup> parameter_groups() { return kGroups; }
 
 std::span<const ParameterSpec> parameters_of(std::string_view owner) {
-  std::string known;
-  for (const auto& m : material_table()) {
+  for (const auto& m : material_table())
     if (owner == m.name) return m.parameters;
-    known += text(known.empty() ? "" : ", ", m.name);
-  }
-  for (const auto& g : kGroups) {
+  for (const auto& g : kGroups)
     if (owner == g.name) return g.specs;
-    known += text(", ", g.name);
-  }
+  std::string known;
+  for (const auto& m : material_table()) known += text(known.empty() ? "" : ", ", m.name);
+  for (const auto& g : kGroups) known += text(", ", g.name);
   throw Error(CLEAVE_UNKNOWN_NAME,
               text("'", owner, "' has no parameters; known material laws and groups: ", known));
 }
