@@ -222,6 +222,26 @@ TEST_P(Measures, TangentsAreDerivatives) {
   EXPECT_GT(turned, 0);
 }
 
+// A symmetric tensor kept with nine places gets the same bits on both sides.
+TEST_P(Measures, SymmetryIsExact) {
+  for (const auto& [f, r] : points) {
+    const Matrix3 s = full(ask(f, CLEAVE_STRESS_CAUCHY, kNine), kNine);
+    const Answer c = ask(f, CLEAVE_STRESS_CAUCHY, kNine, CLEAVE_TANGENT_COROTATED);
+    const auto at = [&](std::size_t i, std::size_t j, std::size_t k, std::size_t l) {
+      return c.tangent[i + 3 * j + 9 * (k + 3 * l)];
+    };
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < i; ++j) {
+        EXPECT_EQ(s[i][j], s[j][i]);
+        for (std::size_t k = 0; k < 3; ++k)
+          for (std::size_t l = 0; l <= k; ++l) {
+            EXPECT_EQ(at(i, j, k, l), at(j, i, k, l));
+            EXPECT_EQ(at(i, j, k, l), at(i, j, l, k));
+          }
+      }
+  }
+}
+
 // Elastic, plastic, large.
 INSTANTIATE_TEST_SUITE_P(Strains, Measures, testing::Values(1e-3, 0.03, 0.3));
 

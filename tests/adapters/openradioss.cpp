@@ -214,6 +214,24 @@ TEST(OpenRadioss, ReadsTheCardsOfEveryLaw) {
   }
 }
 
+TEST(OpenRadioss, ReadsTheCardsOfTheManual) {
+  std::ifstream deck(CLEAVE_RADIOSS_DECK);
+  std::string line, cards;
+  while (std::getline(deck, line) && line.rfind("/MAT/USER01", 0) != 0) continue;
+  ASSERT_TRUE(deck) << CLEAVE_RADIOSS_DECK;
+  int own = 0;  // the title and the line with the density are read by the starter itself
+  while (std::getline(deck, line) && line[0] != '/')
+    if (line[0] != '#' && ++own > 2) cards += line + "\n";
+  const Cards read = read_cards(cards);
+  EXPECT_EQ(read.stops, 0) << read.listing;
+  EXPECT_EQ(
+      read.parameters,
+      (std::vector<Real>{CLEAVE_MATERIAL_j2_power, 7, static_cast<Real>(7.85e-6),
+                         static_cast<Real>(206.9), static_cast<Real>(0.29), static_cast<Real>(0.45),
+                         static_cast<Real>(0.00217), static_cast<Real>(0.2)}));
+  EXPECT_EQ(read.variables, 8);
+}
+
 TEST(OpenRadioss, RefusesWrongCards) {
   const auto refused = [](const std::string& text, const std::string& message) {
     const Cards cards = read_cards(text);

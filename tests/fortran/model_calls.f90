@@ -107,7 +107,7 @@ contains
     type(cleave_event) :: event
     real(c_double) :: time, force(3), u(3, n), P(3, 3, n), weight(4, 3), sample(3, 3)
     integer :: events, steps, simplex(3), bytes
-    integer, allocatable :: alive(:)
+    integer, allocatable :: alive(:), corners(:,:)
     integer(c_int64_t), allocatable :: alive8(:)
 
     call ok(cleave_model_clock(model, steps, time))
@@ -143,6 +143,11 @@ contains
     call ok(cleave_field_get_integer(model, 1_c_int64_t, 'simplex_alive', 1_c_int64_t, &
         size(alive8, kind=c_int64_t), alive8))
     call same_integers('run_alive', alive8)
+
+    allocate (corners(4, c%simplices))
+    call ok(cleave_field_get_integer(model, body, 'simplex_particles', 1, size(alive), corners))
+    call require(minval(corners(:3, :)) == 1 .and. maxval(corners) == n .and. &
+        (all(corners(4, :) == 0) .eqv. dimension == 2), 'particles of simplices count from 1')
 
     simplex = -7
     call ok(cleave_body_locate(model, body, reshape(reals('run_points'), [3, 3]), simplex, weight))

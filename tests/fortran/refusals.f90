@@ -242,10 +242,13 @@ contains
         '''s vk''')
     call refused(cleave_table_find(99_c_int32_t, 'svk', value), CLEAVE_BAD_ARGUMENT, '99')
     call refused(cleave_parameter_count('none', n), CLEAVE_UNKNOWN_NAME, '''none''')
-    call refused(cleave_parameter_get('svk', 0, parameter), CLEAVE_BAD_RANGE, '')
-    call refused(cleave_table_get(CLEAVE_TABLE_MATERIAL, 0, entry), CLEAVE_BAD_RANGE, '')
+    call refused(cleave_parameter_get('svk', 0, parameter), CLEAVE_BAD_RANGE, &
+        'index 0|1 to 3')
+    call refused(cleave_table_get(CLEAVE_TABLE_MATERIAL, 0, entry), CLEAVE_BAD_RANGE, &
+        'index 0')
     call ok(cleave_table_count(CLEAVE_TABLE_MATERIAL, n))
-    call refused(cleave_table_get(CLEAVE_TABLE_MATERIAL, n + 1, entry), CLEAVE_BAD_RANGE, '')
+    call refused(cleave_table_get(CLEAVE_TABLE_MATERIAL, n + 1, entry), CLEAVE_BAD_RANGE, &
+        'cleave_table_get: index')
     call ok(cleave_table_get(CLEAVE_TABLE_MATERIAL, 1, entry))
     call require(entry%name == 'svk' .and. entry%value == CLEAVE_MATERIAL_svk .and. &
         entry%title == 'St Venant-Kirchhoff', 'the first line of the materials')
@@ -270,7 +273,8 @@ contains
     call ok(cleave_field_table_count(n))
     call ok(cleave_field_table_get(1, field))
     call require(field%name == 'reference_position' .and. field%components == 3, 'the first field')
-    call refused(cleave_field_table_get(n + 1, field), CLEAVE_BAD_RANGE, '')
+    call refused(cleave_field_table_get(n + 1, field), CLEAVE_BAD_RANGE, &
+        'cleave_field_table_get: index')
   end subroutine names_and_text
 
   subroutine models()
@@ -304,6 +308,7 @@ contains
     type(cleave_model) :: model
     type(cleave_body_spec) :: spec
     type(cleave_field) :: field
+    type(cleave_event) :: event
     real(c_double) :: X(3,4), values(4), force(3), value, weight(4,2), sample(2)
     integer :: simplices(3,2), body, whole(4), simplex(2)
     call square(X, simplices)
@@ -388,6 +393,8 @@ contains
         CLEAVE_BAD_ARGUMENT, '''simplex''|(1)|(2) or more')
     call refused(cleave_field_interpolate(model, body, 'mass', [1, 3], weight, sample), &
         CLEAVE_BAD_RANGE, '')
+    call refused(cleave_field_get(model, body, 99, field), CLEAVE_BAD_RANGE, 'index 99')
+    call refused(cleave_body_event_get(model, body, 1, event), CLEAVE_BAD_RANGE, 'index 1|1 to 0')
     call refused(cleave_body_add(model, spec, X, body), CLEAVE_WRONG_ORDER, '')
     call ok(cleave_field_get_integer(model, body, 'bond_status', 1, 4, whole))
     call ok(cleave_model_destroy(model))

@@ -10,8 +10,8 @@ import sys
 import tempfile
 
 STRICT = "-std=f2003 -Wall -Wextra -Wimplicit-interface -pedantic -Werror".split()
-HOSTS = ["", "-fdefault-integer-8", "-fdefault-integer-8 -fdefault-real-8",
-         "-fdefault-integer-8 -fdefault-real-8 -fdefault-double-8", "-fno-automatic", "-O2 -fopenmp"]
+HOSTS = ["-fsyntax-only", "-fsyntax-only -fdefault-integer-8", "-fsyntax-only -fdefault-integer-8 -fdefault-real-8",
+         "-fsyntax-only -fno-automatic", "-O2 -fopenmp"]
 # The list of models, and what stands for the address of an array without entries.
 STATIC = {"cleave77_support_MOD_models", "cleave77_support_MOD_taken", "cleave77_support_MOD_uses",
           "cleave_networks_MOD_nothing"}

@@ -1,5 +1,5 @@
 """Every function of cleave.h is defined, called by a test or the driver, and described; every status
-code is raised somewhere. Once a Fortran module exists, it binds every function too."""
+code is raised somewhere. The Fortran module binds every function too."""
 import re
 
 from tree import calls, without_comments
@@ -10,14 +10,14 @@ NOT_RAISED = {"OK": "what success returns"}
 
 
 def check(tree):
-    functions = list(_functions(tree.text(HEADER)))
-    if not functions:
+    declared = list(functions(tree.text(HEADER)))
+    if not declared:
         return [f"{HEADER}: no CLEAVE_API functions found"]
     defined = _joined(tree, tree.paths("kernels/src/*"))
     used = _joined(tree, tree.paths("tests/*.cpp", "tests/*.c", "tests/*.f90", "driver/*.cpp", "driver/*.hpp"))
-    fortran = _joined(tree, tree.paths("kernels/fortran/*.f90"))
+    fortran = _joined(tree, tree.paths("kernels/fortran/*.f90", "kernels/fortran/*.f90.in"))
     complaints = []
-    for name, line, described in functions:
+    for name, line, described in declared:
         place = f"{HEADER}:{line}: {name}"
         if not described:
             complaints.append(f"{place} has no comment; say direction, extent and units of its arguments")
@@ -30,7 +30,7 @@ def check(tree):
     return complaints + _statuses(tree, defined)
 
 
-def _functions(text):
+def functions(text):
     """(name, line, has a comment of its own or shares the one above its paragraph)."""
     described = False
     depth = False

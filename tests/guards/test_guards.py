@@ -7,6 +7,7 @@ import c_interface
 import dependencies
 import equations
 import formatting
+import fortran
 import keys
 import source_text
 import versions
@@ -173,6 +174,56 @@ class CInterface(GuardTest):
     def test_function_missing_in_fortran(self):
         self.assert_complains(c_interface, dict(self.TREE, **{"kernels/fortran/cleave.f90": "module cleave\n"}),
                               "missing in kernels/fortran")
+
+
+class Fortran(GuardTest):
+    PAGE = "manuals/reference/fortran.md"
+    TREE = {
+        "kernels/include/cleave/cleave.h": "/* Do. */\nCLEAVE_API int32_t cleave_do(int n);\n"
+                                           "CLEAVE_API int32_t cleave_base(int n);\n",
+        "kernels/fortran/module/c.f90":
+            "    function cleave_do(n) &\n        bind(C) result(status)\n"
+            "    function cleave_base(n) bind(C) result(status)\n",
+        "kernels/fortran/module/do.f90.in":
+            "  interface cleave_do\n    module procedure do_it\n  end interface cleave_do\n"
+            "  recursive function do_it(model, &\n      n) result(status)\n",
+        "kernels/fortran/f77/do.f90": "recursive subroutine cldo(mod, n, ierr)\n",
+        "manuals/reference/fortran.md":
+            "| `cleave_do` | `(model, n)` | `CLDO(MOD, N, IERR)` |\n"
+            "| `cleave_base` | not offered: it counts from 1 | not offered: the same |\n",
+    }
+
+    def complaint(self, path, old, new, *texts):
+        self.assertIn(old, self.TREE[path])
+        self.assert_complains(fortran, dict(self.TREE, **{path: self.TREE[path].replace(old, new)}), *texts)
+
+    def test_in_order(self):
+        self.assert_quiet(fortran, self.TREE)
+
+    def test_function_not_bound(self):
+        self.complaint("kernels/fortran/module/c.f90", "cleave_base", "cleave_bass", "cleave_base is not bound")
+
+    def test_function_not_offered_without_a_reason(self):
+        self.complaint("kernels/fortran/module/do.f90.in", "interface cleave_do\n", "interface cleave_dont\n",
+                       "cleave_do is not in module cleave")
+
+    def test_function_without_a_subroutine(self):
+        self.complaint(self.PAGE, "not offered: the same", "none", "name the subroutine for cleave_base")
+
+    def test_function_without_a_line(self):
+        self.complaint(self.PAGE, "`cleave_base`", "cleave_base", "cleave_base has no line")
+
+    def test_line_without_a_function(self):
+        self.complaint(self.PAGE, "| `cleave_base`", "| `cleave_old` | `()` | not offered: gone |\n| `cleave_base`",
+                       "cleave_old is no function")
+
+    def test_other_arguments(self):
+        self.complaint(self.PAGE, "(model, n)", "(n)", "cleave_do takes (model, n)")
+        self.complaint(self.PAGE, "CLDO(MOD, N, IERR)", "CLDO(N, IERR)", "CLDO takes (MOD, N, IERR)")
+
+    def test_subroutines(self):
+        self.complaint("kernels/fortran/f77/do.f90", "cldo", "cldodone", "more than six", "CLDO is no subroutine",
+                       "CLDODONE is missing")
 
 
 class Keys(GuardTest):

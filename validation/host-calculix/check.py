@@ -23,6 +23,7 @@ BRICKS = {"quick": (3, 24), "full": (5, 40)}     # of the rod, across and along
 STROKES = numpy.linspace(0.08, 2.0, 25)          # of the bar, ends of increments [mm]
 KINDS = {"native": lambda metal: materials.cleave(metal), "abaqusnl": lambda metal: materials.cleave(metal, "ABAQUSNL"),
          "plastic": materials.plastic}
+MANUAL = ccx.ROOT / "manuals/user/hosts/decks"
 RUNS = [("tensile", "native"), ("tensile", "abaqusnl"), ("tensile", "plastic"), ("taylor", "native"), ("taylor", "plastic")]
 
 
@@ -52,6 +53,14 @@ def do_run(case, problem, kind):
     files = {"mesh.inp": mesh, "material.inp": KINDS[kind](metal),
              f"{problem}.inp": (ccx.HERE / f"{problem}.inp").read_text(encoding="utf-8")}
     ccx.execute(ccx.program(), ccx.library(case.cleave), folder(case, problem, kind), problem, files)
+
+
+def run_of_manual(case, name):
+    """A deck of the manual page, as it stands there."""
+    files = {f"{name}.inp": (MANUAL / f"{name}.inp").read_text(encoding="utf-8")}
+    if case.evaluate:
+        return case.work / name / f"{name}.dat"
+    return ccx.execute(ccx.program(), ccx.library(case.cleave), case.work / name, name, files)
 
 
 def dat(case, problem, kind):
@@ -94,6 +103,8 @@ def check(case):
     case.figure("taylor_shortening", shortening / shortening_plastic)
     case.figure("taylor_foot", foot / foot_plastic)
     case.figure("taylor_shortening_plastic", shortening_plastic)
+    case.figure("manual_pull", ccx.totals(run_of_manual(case, "calculix_pull"))[1][-1, 0])
+    case.figure("manual_hit", -1e3 * ccx.displacements(run_of_manual(case, "calculix_hit"), "TOP")[1][-1, 2])
 
 
 def pictures(case, target):

@@ -32,11 +32,17 @@ C     stops at the first block that has one.
       IF (IERR .NE. 0) CALL CLMSG (TERR(IB), LENG)
       END
 
+C     Where a law had no answer IFAIL says so too.
       SUBROUTINE KCHECK (NBLK)
       INCLUDE 'impact.inc'
-      DO 10 IB = 1, NBLK
-        IF (IERB(IB) .NE. 0) CALL HALT (TERR(IB))
-   10 CONTINUE
+      DO 20 IB = 1, NBLK
+        IF (IERB(IB) .EQ. 0) GO TO 20
+        DO 10 I = (IB - 1)*LBLK + 1, MIN(IB*LBLK, NP)
+          IF (IFAIL(I) .NE. 0) WRITE (LOUT,'(A,I9,A,1P,3E12.4)')
+     &      ' IMPACT: no stress of particle', I, ' at', (X(K,I), K=1,3)
+   10   CONTINUE
+        CALL HALT (TERR(IB))
+   20 CONTINUE
       END
 
 C     Length of a text without its blanks at the end.

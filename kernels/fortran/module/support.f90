@@ -8,7 +8,8 @@ module cleave_support
   use cleave_c_tables, only: cleave_set_last_message
   implicit none
   private
-  public :: zero_based, one_based, narrow, c_text, f_text, refuse, decimal, range_fits
+  public :: zero_based, one_based, narrow, c_text, f_text, refuse, decimal, range_fits, &
+      index_fits
 
   ! A 0-based index of a 1-based one; the inclusive range first..last is zero_based(first), last.
   interface zero_based
@@ -155,4 +156,14 @@ contains
     status = refuse(CLEAVE_BAD_RANGE, procedure, 'range ' // trim(decimal(first)) // ' to ' // &
         trim(decimal(last)) // ' (inclusive) does not lie inside 1 to ' // trim(decimal(n)))
   end function range_fits
+
+  recursive function index_fits(procedure, index, n) result(status)
+    character(len=*), intent(in) :: procedure
+    integer(c_int64_t), intent(in) :: index, n
+    integer(c_int32_t) :: status
+    status = CLEAVE_OK
+    if (index >= 1 .and. index <= n) return
+    status = refuse(CLEAVE_BAD_RANGE, procedure, 'index ' // trim(decimal(index)) // &
+        ' does not lie inside 1 to ' // trim(decimal(n)))
+  end function index_fits
 end module cleave_support

@@ -68,14 +68,15 @@ inline Mat<3> convert_stress(cleave_stress_measure measure, const Mat<3>& p, con
   return symmetric_part(s);
 }
 
-// Both pairs of indices made symmetric.
+// Both pairs of indices made symmetric, to the last bit: each sum has the same terms in pairs.
 inline Tangent<3> minor_symmetric(const Tangent<3>& a) {
   Tangent<3> t;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
       for (int k = 0; k < 3; ++k)
         for (int l = 0; l < 3; ++l)
-          t(i, j, k, l) = 0.25 * (a(i, j, k, l) + a(j, i, k, l) + a(i, j, l, k) + a(j, i, l, k));
+          t(i, j, k, l) =
+              0.25 * ((a(i, j, k, l) + a(j, i, k, l)) + (a(i, j, l, k) + a(j, i, l, k)));
   return t;
 }
 

@@ -36,7 +36,7 @@ struct PointArrays {
 
 struct Body {
   // index_base: what messages count from.
-  Body(const cleave_body_spec& spec, int index, int index_base);
+  Body(const cleave_body_spec& spec, int index, int index_base = 0);
 
   // For messages: the body, and an index as the host counts.
   std::string label() const { return text("body ", index + index_base, " '", name, "'"); }
