@@ -1,5 +1,5 @@
-! A model driven from Fortran gives the bits of one driven from C, also with another model beside it,
-! and after its state went through named fields into a new one.
+! A model driven from Fortran gives the bits of one driven from C, also with another model beside
+! it, and after its state went through named fields into a new one.
 program model_calls
   use, intrinsic :: iso_c_binding, only: c_int32_t, c_int64_t, c_double
   use cleave

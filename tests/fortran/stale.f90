@@ -1,5 +1,5 @@
-! A host whose module was compiled for another interface number: refused with a message, before anything
-! is done. The build gives this program a copy of the module with another number.
+! A host whose module was compiled for another interface number: refused with a message, before
+! anything is done. The build gives this program a copy of the module with another number.
 program stale
   use, intrinsic :: iso_c_binding, only: c_int32_t
   use cleave

@@ -1,8 +1,8 @@
-! The text components of the module's types are long enough for every line of the tables, the particles
-! in integer fields are those that the table says, and the constants of a table are its values.
+! The text components of the module's types are long enough for every line of the tables, the
+! particles in integer fields are those that the table says, constants are the values of a table.
 program texts
-  use, intrinsic :: iso_c_binding, only: c_int32_t, c_int64_t, c_int8_t, c_char, c_ptr, c_null_char, &
-      c_f_pointer, c_associated
+  use, intrinsic :: iso_c_binding, only: c_int32_t, c_int64_t, c_int8_t, c_char, c_ptr, &
+      c_null_char, c_f_pointer, c_associated
   use cleave_c, only: c_entry => cleave_table_entry, c_parameter => cleave_parameter, &
       c_field => cleave_field, c_table_get => cleave_table_get, &
       c_parameter_get => cleave_parameter_get, c_field_table_get => cleave_field_table_get
@@ -32,7 +32,8 @@ program texts
   do k = 1, n
     call ok(cleave_field_table_get(k, field))
     call field_is_whole(k, field)
-    if (field%type == CLEAVE_INTEGER) call require((index(field%description, 'particles') == 1 .or. &
+    if (field%type == CLEAVE_INTEGER) call require( &
+        (index(field%description, 'particles') == 1 .or. &
         index(field%description, 'nodes') == 1) .eqv. (field%name == 'bond_ends' .or. &
         field%name == 'simplex_particles'), 'particles in ' // field%name)
   end do

@@ -13,6 +13,7 @@ import subprocess
 
 from .simulation import RunError
 
+COMPILERS = ("gfortran", "flang-new", "ifx", "ifort")
 SOURCES = ("*.f", "*.f90", "*.inc", "Makefile")
 
 
@@ -32,6 +33,8 @@ def obstacle(cleave):
     cache = pathlib.Path(cleave).resolve().parent.parent / "CMakeCache.txt"
     if cache.exists() and "CLEAVE_SANITIZE:BOOL=ON" in cache.read_text(encoding="utf-8"):
         return "a library built with sanitizers wants their run time in every host"
+    if not (os.environ.get("FC") or any(map(shutil.which, COMPILERS))):
+        return "there is no Fortran compiler to build the host with; install gfortran, or name one in the environment variable FC"
     return None
 
 

@@ -183,7 +183,7 @@ TEST(KernelSetup, NamesMeshesItCannotUse) {
   expect_refused(sph, lonely, {}, CLEAVE_BAD_SIMPLEX, "particle 25");
   SimplexMesh wrong = patch(2, 4, 1.0, 0.1, 73);
   wrong.simplices[5] = 25;
-  expect_refused(sph, wrong, {}, CLEAVE_BAD_SIMPLEX, "refers to particle 25");
+  expect_refused(sph, wrong, {}, CLEAVE_BAD_SIMPLEX, "particle 25 of simplex 1");
 }
 
 }  // namespace
