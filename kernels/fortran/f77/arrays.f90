@@ -93,7 +93,7 @@ recursive subroutine clforc(ndim, n, ld, nfirst, nlast, nrow, neigh, nrev, zeta,
 end subroutine clforc
 
 ! Adds the artificial viscosity on particles nfirst..nlast to f. w: bond weights; aj: volume ratio;
-! coeff: beta l_c rho0 c0; alen: l_c of the regularisation.
+! coeff: beta rho0 c0 [Pa s m-1]; alen: l_c of the regularisation [m].
 recursive subroutine clvisc(ndim, n, ld, nfirst, nlast, nrow, neigh, nrev, zeta, vol, w, x, v, aj, &
     coeff, alen, f, ierr)
   use, intrinsic :: iso_c_binding, only: c_int32_t, c_int64_t, c_double
