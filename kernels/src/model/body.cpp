@@ -6,21 +6,29 @@
 
 namespace cleave {
 
+namespace {
+
+Kinematics checked_kinematics(std::int32_t given, const std::string& label) {
+  if (given < CLEAVE_3D || given > CLEAVE_PLANE_STRESS) {
+    throw Error(CLEAVE_BAD_ARGUMENT,
+                text(label, ": kinematics is ", given,
+                     "; allowed: CLEAVE_3D, CLEAVE_PLANE_STRAIN, CLEAVE_PLANE_STRESS"));
+  }
+  return static_cast<Kinematics>(given);
+}
+
+}  // namespace
+
 Body::Body(const cleave_body_spec& spec, int body_index, int base)
     : name(spec.name == nullptr ? "" : spec.name),
       index(body_index),
       index_base(base),
-      kinematics(static_cast<Kinematics>(spec.kinematics)),
+      kinematics(checked_kinematics(spec.kinematics, label())),
       particles(spec.particles),
       simplex_nodes(spec.simplex_nodes == 0 ? dimension() + 1 : spec.simplex_nodes),
       law(&find_material(spec.material)),
       material_parameters(text("material law ", law->name, " of ", label()), law->parameters),
       formulation(make_formulation(spec.formulation)) {
-  if (spec.kinematics < CLEAVE_3D || spec.kinematics > CLEAVE_PLANE_STRESS) {
-    throw Error(CLEAVE_BAD_ARGUMENT,
-                text(label(), ": kinematics is ", spec.kinematics,
-                     "; allowed: CLEAVE_3D, CLEAVE_PLANE_STRAIN, CLEAVE_PLANE_STRESS"));
-  }
   if (particles <= 0 || particles >= INT32_MAX) {
     throw Error(CLEAVE_BAD_ARGUMENT,
                 text(label(), " has ", particles, " particles; allowed: 1 to ", INT32_MAX - 1));
