@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -65,6 +66,13 @@ Archive read_archive(const std::string& path);
 
 // As read_archive, but keeps nothing: memory for one block of one array, whatever the size.
 void verify_archive(const std::string& path);
+
+// Bytes of the arrays verified so far, and in all.
+using VerifyProgress = std::function<void(std::int64_t done, std::int64_t all)>;
+// Goes on after an array that fails: a message for each, none if the archive is good. A header that
+// fails is one message, and nothing else can be verified then. Throws io::Error if there is no file.
+std::vector<std::string> archive_damage(const std::string& path,
+                                        const VerifyProgress& progress = {});
 
 // The header is verified, the arrays are neither read nor verified.
 ArchiveHeader read_archive_header(const std::string& path);

@@ -138,11 +138,13 @@ ArchiveHeader read_header(const NetcdfFile& file, const std::string& path) {
   return header;
 }
 
+using BytesRead = std::function<void(std::int64_t)>;
+
 // Reads the values of array `variable` in blocks of whole rows and verifies them; keeps them in
 // `keep` if that is given.
 template <class T>
 void read_values(const NetcdfFile& file, const std::string& path, int variable,
-                 const ArrayInfo& info, std::vector<T>* keep) {
+                 const ArrayInfo& info, std::vector<T>* keep, const BytesRead& bytes_read = {}) {
   const std::int64_t rows = info.size / info.components;
   const std::int64_t block = std::max<std::int64_t>(1, kBlockValues / info.components);
   std::vector<T> buffer(static_cast<std::size_t>(
@@ -158,12 +160,22 @@ void read_values(const NetcdfFile& file, const std::string& path, int variable,
                "read the array '" + info.name + "'");
     const auto values = static_cast<std::size_t>(count * info.components);
     checksum = crc64(std::span<const T>(target, values), checksum);
+    if (bytes_read) bytes_read(static_cast<std::int64_t>(values * sizeof(T)));
   }
   if (checksum != info.checksum) {
     fail(path, "array '" + info.name + "' is damaged: its checksum is " + checksum_text(checksum) +
                    ", stored is " + checksum_text(info.checksum));
   }
   if (keep != nullptr) *keep = std::move(buffer);
+}
+
+void verify_array(const NetcdfFile& file, const std::string& path, int variable,
+                  const ArrayInfo& info, const BytesRead& bytes_read = {}) {
+  if (info.is_integer) {
+    read_values<std::int64_t>(file, path, variable, info, nullptr, bytes_read);
+  } else {
+    read_values<double>(file, path, variable, info, nullptr, bytes_read);
+  }
 }
 
 template <class T>
@@ -192,7 +204,7 @@ const ArrayInfo* ArchiveHeader::find_array(const std::string& name) const {
 
 Archive read_archive(const std::string& path) {
   verify_header(path);
-  const NetcdfFile file = NetcdfFile::open(path, NetcdfFile::Access::read);
+  const NetcdfFile file = NetcdfFile::open(path);
   ArchiveHeader header = read_header(file, path);
   Archive archive;
   archive.attributes = std::move(header.attributes);
@@ -206,21 +218,41 @@ Archive read_archive(const std::string& path) {
 
 void verify_archive(const std::string& path) {
   verify_header(path);
-  const NetcdfFile file = NetcdfFile::open(path, NetcdfFile::Access::read);
+  const NetcdfFile file = NetcdfFile::open(path);
   const ArchiveHeader header = read_header(file, path);
-  for (int i = 0; i < static_cast<int>(header.arrays.size()); ++i) {
-    const ArrayInfo& info = header.arrays[static_cast<std::size_t>(i)];
-    if (info.is_integer) {
-      read_values<std::int64_t>(file, path, i + 1, info, nullptr);
-    } else {
-      read_values<double>(file, path, i + 1, info, nullptr);
+  for (int i = 0; i < static_cast<int>(header.arrays.size()); ++i)
+    verify_array(file, path, i + 1, header.arrays[static_cast<std::size_t>(i)]);
+}
+
+std::vector<std::string> archive_damage(const std::string& path, const VerifyProgress& progress) {
+  file_size(path);  // that there is a file
+  std::vector<std::string> damage;
+  try {
+    verify_header(path);
+    const NetcdfFile file = NetcdfFile::open(path);
+    const ArchiveHeader header = read_header(file, path);
+    std::int64_t all = 0, done = 0;
+    for (const ArrayInfo& info : header.arrays) all += 8 * info.size;
+    const BytesRead count = [&](std::int64_t bytes) {
+      done += bytes;
+      if (progress) progress(done, all);
+    };
+    for (int i = 0; i < static_cast<int>(header.arrays.size()); ++i) {
+      try {
+        verify_array(file, path, i + 1, header.arrays[static_cast<std::size_t>(i)], count);
+      } catch (const Error& error) {
+        damage.emplace_back(error.what());
+      }
     }
+  } catch (const Error& error) {
+    damage.emplace_back(error.what());
   }
+  return damage;
 }
 
 ArchiveHeader read_archive_header(const std::string& path) {
   verify_header(path);
-  return read_header(NetcdfFile::open(path, NetcdfFile::Access::read), path);
+  return read_header(NetcdfFile::open(path), path);
 }
 
 }  // namespace cleave::io

@@ -46,6 +46,11 @@ void ExodusFile::check_netcdf(int status, std::string_view operation) const {
   if (status != NC_NOERR) throw_netcdf_error(path_, operation, status);
 }
 
-void ExodusFile::close() { check(ex_close(std::exchange(id_, -1)), "write and close the file"); }
+// As NetcdfFile::close: the library keeps quiet about what goes wrong while it closes.
+void ExodusFile::close() {
+  const std::string_view operation = "write and close the file";
+  check(ex_update(id_), operation);
+  check(ex_close(std::exchange(id_, -1)), operation);
+}
 
 }  // namespace cleave::io

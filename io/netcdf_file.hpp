@@ -17,12 +17,10 @@ namespace cleave::io {
 
 class NetcdfFile {
  public:
-  enum class Access { read, write };
-
   // A new, empty CDF-5 file in define mode; an old file of that name is lost. Values not written
   // stay undefined, so write them all.
   static NetcdfFile create(const std::string& path);
-  static NetcdfFile open(const std::string& path, Access access);
+  static NetcdfFile open(const std::string& path);  // for reading; records: record_file.hpp
 
   NetcdfFile(NetcdfFile&& other) noexcept;
   NetcdfFile& operator=(NetcdfFile&&) = delete;

@@ -1,8 +1,5 @@
 #include "io/netcdf_layout.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -12,13 +9,13 @@
 
 #include "io/error.hpp"
 #include "io/new_file.hpp"
+#include "io/record_file.hpp"
 
 namespace cleave::io {
 namespace {
 
 // Tags of the classic format (netCDF User's Guide, "File Format Specifications").
 constexpr std::int64_t kDimensionTag = 10, kVariableTag = 11, kAttributeTag = 12;
-constexpr std::int64_t kRecordsOffset = 4;  // behind "CDF" and the version
 constexpr std::int64_t kHuge = std::int64_t{1} << 62;
 
 std::int64_t saturating_product(std::int64_t a, std::int64_t b) {
@@ -218,22 +215,13 @@ class HeaderReader {
   std::vector<std::int64_t> dimensions_;
 };
 
-void write_record_count(const std::string& path, int version, std::int64_t records) {
-  std::array<unsigned char, 8> raw{};
-  const int bytes = version == 5 ? 8 : 4;
-  for (int i = 0; i < bytes; ++i) {
-    raw[static_cast<std::size_t>(i)] =
-        static_cast<unsigned char>(static_cast<std::uint64_t>(records) >> (8 * (bytes - 1 - i)));
-  }
-  const int fd = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
-  if (fd < 0) throw_system_error(path, "open the file for writing", errno);
-  const ssize_t written = ::pwrite(fd, raw.data(), static_cast<std::size_t>(bytes), kRecordsOffset);
-  const int error = written < 0 ? errno : EIO;
-  ::close(fd);
-  if (written != bytes) throw_system_error(path, "write the number of records", error);
-}
-
 }  // namespace
+
+const NetcdfLayout::Variable* NetcdfLayout::find(const std::string& name) const {
+  const auto found = std::find_if(variables.begin(), variables.end(),
+                                  [&](const Variable& variable) { return variable.name == name; });
+  return found == variables.end() ? nullptr : &*found;
+}
 
 NetcdfLayout read_netcdf_layout(const std::string& path) { return HeaderReader(path).read(); }
 
@@ -245,10 +233,10 @@ void truncate_records(const std::string& path, std::int64_t records) {
                 " are needed to continue; it is not the file of that run, or it was changed since");
   }
   // First the count, then the tail: between the two the file is valid, only longer than needed.
-  write_record_count(path, layout.version, records);
-  if (layout.record_bytes > 0) {
-    set_file_size(path, layout.record_begin + records * layout.record_bytes);
-  }
+  RecordFile file(path, layout);
+  file.set_records(records);
+  file.set_length(records);
+  file.close();
   sync_file(path);
 }
 

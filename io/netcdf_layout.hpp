@@ -25,6 +25,12 @@ struct NetcdfLayout {
   std::int64_t promised_records = 0, promised_bytes = 0;  // by the header
   std::int64_t found_records = 0, found_bytes = 0;        // whole records, length of the file
   std::vector<Variable> variables;
+
+  const Variable* find(const std::string& name) const;  // nullptr if absent
+  // The first byte of a record variable's values in record `record`, from 0.
+  std::int64_t place(const Variable& variable, std::int64_t record) const {
+    return variable.begin + record * record_bytes;
+  }
 };
 
 // Throws io::Error if the file cannot be read, is not netCDF classic, contradicts itself, or ends

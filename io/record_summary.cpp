@@ -32,7 +32,7 @@ RecordSummary summarise_records(const std::string& path) {
   for (const NetcdfLayout::Variable& variable : layout.variables)
     if (!variable.is_record) throw Error(path + ": is not a table of records");
   if (layout.variables.empty()) throw Error(path + ": is not a table of records: no columns");
-  const NetcdfFile file = NetcdfFile::open(path, NetcdfFile::Access::read);
+  const NetcdfFile file = NetcdfFile::open(path);
   RecordSummary summary;
   // A kill while records are written can leave fewer than the header promises.
   summary.records = std::min(layout.promised_records, layout.found_records);

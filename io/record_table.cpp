@@ -1,6 +1,7 @@
 #include "io/record_table.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <set>
 
@@ -9,6 +10,7 @@
 #include "io/netcdf_file.hpp"
 #include "io/netcdf_layout.hpp"
 #include "io/new_file.hpp"
+#include "io/record_file.hpp"
 
 namespace cleave::io {
 namespace {
@@ -46,26 +48,29 @@ void write_empty_table(const std::string& path, const std::vector<Column>& colum
 }
 
 // Writes `records` (row by row) behind the first `first` records of the file.
-void write_records(const NetcdfFile& file, const std::vector<Column>& columns, std::int64_t first,
+void write_records(const std::string& path, const std::vector<Column>& columns, std::int64_t first,
                    std::span<const double> records) {
-  const std::size_t width = columns.size(), count = records.size() / width;
-  const auto start = static_cast<std::size_t>(first);
-  std::vector<double> reals(count);
-  std::vector<long long> integers(count);
-  for (std::size_t c = 0; c < width; ++c) {
-    const int variable = static_cast<int>(c);
-    int status = NC_NOERR;
-    if (columns[c].is_integer) {
-      for (std::size_t r = 0; r < count; ++r) {
-        integers[r] = static_cast<long long>(records[r * width + c]);
-      }
-      status = nc_put_vara_longlong(file.id(), variable, &start, &count, integers.data());
-    } else {
-      for (std::size_t r = 0; r < count; ++r) reals[r] = records[r * width + c];
-      status = nc_put_vara_double(file.id(), variable, &start, &count, reals.data());
-    }
-    file.check(status, "write the column '" + columns[c].name + "'");
+  const NetcdfLayout layout = read_netcdf_layout(path);
+  const std::size_t width = columns.size();
+  const Error changed(path + ": was changed while the run wrote it; start the run again");
+  if (layout.variables.size() != width || layout.record_bytes != 8 * std::ssize(columns)) {
+    throw changed;
   }
+  std::vector<std::uint64_t> bits(records.size());  // columns in the order of the file
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const std::size_t column = i % width;
+    const std::int64_t place = (layout.variables[column].begin - layout.record_begin) / 8;
+    if (place >= std::ssize(columns)) throw changed;
+    bits[i - column + static_cast<std::size_t>(place)] =
+        columns[column].is_integer
+            ? static_cast<std::uint64_t>(static_cast<std::int64_t>(records[i]))
+            : std::bit_cast<std::uint64_t>(records[i]);
+  }
+  const std::int64_t end = first + std::ssize(records) / std::ssize(columns);
+  RecordFile file(path, layout);
+  file.write(layout.record_begin + first * layout.record_bytes, bits);
+  file.set_records(end);
+  file.close();
 }
 
 std::vector<double> read_records(const NetcdfFile& file, std::span<const Column> columns,
@@ -142,9 +147,7 @@ void RecordTable::Impl::flush() {
 }
 
 void RecordTable::Impl::write_waiting() {
-  NetcdfFile file = NetcdfFile::open(path, NetcdfFile::Access::write);
-  write_records(file, columns, flushed, waiting);
-  file.close();
+  write_records(path, columns, flushed, waiting);
   if (csv_path.empty()) return;
   std::string text;
   append_csv_records(text, columns, waiting);
@@ -161,7 +164,7 @@ void RecordTable::Impl::restore_files() {
 
 // The whole CSV from the netCDF file, in blocks.
 void RecordTable::Impl::write_csv() {
-  const NetcdfFile file = NetcdfFile::open(path, NetcdfFile::Access::read);
+  const NetcdfFile file = NetcdfFile::open(path);
   NewFile new_file(csv_path);
   create_empty_file(new_file.temporary_path());
   append_to_file(new_file.temporary_path(), csv_header(columns));
@@ -193,7 +196,7 @@ RecordTable RecordTable::reopen(const std::string& path, const std::string& csv_
   check_columns(path, columns);
   const NetcdfLayout layout = read_netcdf_layout(path);
   if (layout.version != 5) throw Error(path + ": is not a table written by Cleave; check the name");
-  check_same_columns(NetcdfFile::open(path, NetcdfFile::Access::read), path, columns);
+  check_same_columns(NetcdfFile::open(path), path, columns);
   truncate_records(path, records);
   auto impl = std::make_unique<Impl>();
   impl->path = path;

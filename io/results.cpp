@@ -2,13 +2,12 @@
 #include "io/results.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "io/error.hpp"
 #include "io/exodus_definition.hpp"
-#include "io/netcdf_file.hpp"
 #include "io/netcdf_layout.hpp"
 #include "io/new_file.hpp"
+#include "io/record_file.hpp"
 
 namespace cleave::io {
 namespace {
@@ -99,13 +98,16 @@ void ResultsWriter::Impl::check_values(const std::string& what,
 void ResultsWriter::Impl::append(double time, std::span<const std::vector<double>> nodal_values,
                                  std::span<const std::vector<double>> element_values,
                                  std::span<const double> global_values) const {
-  NetcdfFile file = NetcdfFile::open(path, NetcdfFile::Access::write);
+  const NetcdfLayout layout = read_netcdf_layout(path);
+  RecordFile file(path, layout);
   const auto put = [&](const std::string& stored_as, std::int64_t count, const double* values) {
-    const std::array<std::size_t, 2> start{static_cast<std::size_t>(frames), 0};
-    const std::array<std::size_t, 2> extent{1, static_cast<std::size_t>(count)};
-    file.check(nc_put_vara_double(file.id(), file.variable(stored_as), start.data(), extent.data(),
-                                  values),
-               "write '" + stored_as + "' of frame " + std::to_string(frames + 1));
+    const NetcdfLayout::Variable* variable = layout.find(stored_as);
+    if (variable == nullptr || !variable->is_record || variable->bytes != 8 * count) {
+      throw Error(path + ": has no '" + stored_as + "' of " + std::to_string(count) +
+                  " values; the file was changed while the run wrote it");
+    }
+    file.write(layout.place(*variable, frames),
+               std::span<const double>(values, static_cast<std::size_t>(count)));
   };
   put("time_whole", 1, &time);
   if (!global.empty()) put("vals_glo_var", std::ssize(global), global_values.data());
@@ -120,6 +122,8 @@ void ResultsWriter::Impl::append(double time, std::span<const std::vector<double
       values += block_elements[b];
     }
   }
+  file.set_length(frames + 1);
+  file.set_records(frames + 1);
   file.close();
 }
 

@@ -133,7 +133,7 @@ ResultFrame StoredResults::read_frame(std::int64_t frame, std::span<const std::s
     throw Error(path + ": there is no frame " + std::to_string(frame + 1) + "; the file has " +
                 std::to_string(found) + " complete frames, counted from 1");
   }
-  const NetcdfFile file = NetcdfFile::open(path, NetcdfFile::Access::read);
+  const NetcdfFile file = NetcdfFile::open(path);
   const FrameReader reader(file, path, frame);
   ResultFrame values;
   const std::size_t record = static_cast<std::size_t>(frame), one = 1;
@@ -160,7 +160,7 @@ ResultFrame StoredResults::read_frame(std::int64_t frame, std::span<const std::s
 
 StoredResults read_results(const std::string& path) {
   const ResultSummary summary = summarise_results(path);
-  const NetcdfFile file = NetcdfFile::open(path, NetcdfFile::Access::read);
+  const NetcdfFile file = NetcdfFile::open(path);
   StoredResults results;
   results.path = path;
   results.title = summary.title;

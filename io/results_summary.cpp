@@ -9,7 +9,7 @@ namespace cleave::io {
 
 ResultSummary summarise_results(const std::string& path) {
   const NetcdfLayout layout = read_netcdf_layout(path);
-  const NetcdfFile file = NetcdfFile::open(path, NetcdfFile::Access::read);
+  const NetcdfFile file = NetcdfFile::open(path);
   ResultSummary summary;
   summary.points = length_of(file, "num_nodes");
   summary.dimension = static_cast<int>(length_of(file, "num_dim"));

@@ -6,11 +6,13 @@
 #include <iostream>
 
 #include "cleave/cleave.h"
+#include "command/checkpoint_text.hpp"
 #include "command/deck_path.hpp"
 #include "command/export.hpp"
 #include "command/info.hpp"
 #include "command/keys.hpp"
 #include "command/tables.hpp"
+#include "command/verify.hpp"
 #include "command/waiting_threads.hpp"
 #include "deck/nearest_name.hpp"
 #include "io/error.hpp"
@@ -18,6 +20,7 @@
 #include "run/point.hpp"
 #include "run/run.hpp"
 #include "run/sample.hpp"
+#include "run/wall_time.hpp"
 
 namespace {
 
@@ -28,6 +31,7 @@ enum ExitCode { kDone = 0, kRunFailed = 1, kBadInput = 2 };
 // What the words of the command line said.
 struct Words {
   std::string deck_to_run, deck, checkpoint, topic, table, file, format = "text";
+  bool verify = false, deck_only = false, restart_keys = false;
   RunOptions run;
   ExportRequest to_export;
   PointRequest point;
@@ -49,6 +53,21 @@ void add_run_options(CLI::App& app, Words& words) {
       ->check(CLI::Range(1, 4096))
       ->type_name("N");
   app.add_flag("--quiet", words.run.quiet, "no progress lines");
+}
+
+void add_wall_limit(CLI::App& app, Words& words) {
+  const auto take = [&words](const std::string& text) {
+    words.run.wall_limit = parse_wall_time(text);
+    if (!words.run.wall_limit)
+      throw CLI::ValidationError("--wall-limit: \"" + text +
+                                 "\" is no wall time; allowed are seconds, as 86000, and hours, "
+                                 "minutes and seconds, as 23:50:00");
+  };
+  app.add_option_function<std::string>(
+         "--wall-limit", take,
+         "write a checkpoint and stop with exit code 3 before this wall time has passed "
+         "(s or H:MM:SS), instead of wall_limit of the deck; 0: none")
+      ->type_name("TIME");
 }
 
 using Action = std::function<int()>;
@@ -76,18 +95,23 @@ void add_deck_commands(CLI::App& app, Words& words, Action& chosen) {
                            words.run);
       });
   restart.add_option("CHECKPOINT", words.checkpoint, "checkpoint or directory")->required();
-  restart.add_option("--deck", words.deck, "deck to use instead of the one in the checkpoint")
+  restart
+      .add_option("--deck", words.deck,
+                  "go on with this deck; what it may change: cleave keys --restart")
       ->type_name("DECK");
   add_run_options(restart, words);
+  add_wall_limit(restart, words);
 }
 
 void add_listing_commands(CLI::App& app, Words& words, Action& chosen) {
   CLI::App& keys =
       add_command(app, chosen, "keys", "print the groups and keys of a deck", [&words] {
+        if (words.restart_keys) return print(restart_listing(format_of(words)));
         if (words.format == "names") return print(key_names());
         return print(keys_listing(words.topic, format_of(words)));
       });
   keys.add_option("GROUP.KEY", words.topic, "only this group, or this key of it");
+  keys.add_flag("--restart", words.restart_keys, "those that a restart may change");
   keys.add_option("--format", words.format, "text, markdown or names")
       ->check(CLI::IsMember({"text", "markdown", "names"}))
       ->type_name("FORMAT");
@@ -101,11 +125,26 @@ void add_listing_commands(CLI::App& app, Words& words, Action& chosen) {
       ->type_name("FORMAT");
 }
 
+int info(const Words& words) {
+  if (words.deck_only) return print(checkpoint_deck(existing_file(words.file, "the checkpoint")));
+  const std::string path = existing_path(words.file, "the file");
+  const bool directory = std::filesystem::is_directory(path);
+  if (!directory && !words.verify) return print(file_description(path));
+  const auto say = [](const std::string& line) { std::cerr << line << '\n'; };
+  const Verification found = directory ? verify_directory(path, say) : verify_file(path, say);
+  print(found.text);
+  return found.good || !words.verify ? kDone : kRunFailed;
+}
+
 void add_file_commands(CLI::App& app, Words& words, Action& chosen) {
-  CLI::App& info = add_command(
-      app, chosen, "info", "describe a checkpoint or result file",
-      [&words] { return print(file_description(existing_file(words.file, "the file"))); });
-  info.add_option("FILE", words.file, "checkpoint or results")->required();
+  CLI::App& command =
+      add_command(app, chosen, "info",
+                  "describe a checkpoint or result file, or list the checkpoints of a directory",
+                  [&words] { return info(words); });
+  command.add_option("FILE", words.file, "checkpoint, results, history or directory")->required();
+  command.add_flag("--verify", words.verify,
+                   "verify all checksums; exit code 1 if something is broken");
+  command.add_flag("--deck", words.deck_only, "print the deck that a checkpoint carries");
 
   CLI::App& parse = add_command(app, chosen, "parse", "print any namelist file as JSON", [&words] {
     const std::string path = existing_file(words.file, "the file");
@@ -248,6 +287,7 @@ int run_command_line(int argc, char** argv) {
   app.require_subcommand(0, 1);
   app.add_option("DECK", words.deck_to_run, "deck to run (Fortran namelist)");
   add_run_options(app, words);
+  add_wall_limit(app, words);
   add_deck_commands(app, words, chosen);
   add_listing_commands(app, words, chosen);
   add_file_commands(app, words, chosen);

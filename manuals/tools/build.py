@@ -23,6 +23,7 @@ def generate(program, folder):
         return subprocess.run([program, *arguments], check=True, capture_output=True, text=True).stdout
     pages = {name: output("tables", name, "--format", "markdown") for name in TABLES}
     pages["keys"] = output("keys", "--format", "markdown")
+    pages["restart_keys"] = output("keys", "--restart", "--format", "markdown")
     pages["c_interface"] = c_interface.page(HEADER.read_text(encoding="utf-8"))
     texts = [output("--help")] + [output(command, "--help") for command in COMMANDS]
     titles = ["cleave"] + [f"cleave {command}" for command in COMMANDS]

@@ -1,9 +1,8 @@
 #include "command/info.hpp"
 
-#include <algorithm>
 #include <array>
-#include <variant>
 
+#include "command/checkpoint_text.hpp"
 #include "command/table_text.hpp"
 #include "deck/number_text.hpp"
 #include "io/archive.hpp"
@@ -14,33 +13,8 @@
 namespace cleave::driver {
 namespace {
 
-// One line of a text that may be long (a whole deck travels in a checkpoint).
-std::string shortened(const std::string& text) {
-  constexpr std::size_t kLongest = 70;
-  const std::size_t line_end = text.find('\n');
-  if (line_end == std::string::npos && text.size() <= kLongest) return text;
-  return text.substr(0, std::min(line_end, kLongest)) + " ... (" + std::to_string(text.size()) +
-         " characters)";
-}
-
-std::string attribute_text(const io::AttributeValue& value) {
-  if (const auto* text = std::get_if<std::string>(&value)) return shortened(*text);
-  if (const auto* integer = std::get_if<std::int64_t>(&value)) return std::to_string(*integer);
-  return real_text(std::get<double>(value));
-}
-
 std::string describe_archive(const std::string& path) {
-  const io::ArchiveHeader archive = io::read_archive_header(path);
-  TextTable attributes{{"attribute", "value"}, {}};
-  for (const auto& [name, value] : archive.attributes)
-    attributes.rows.push_back({name, attribute_text(value)});
-  TextTable arrays{{"array", "units", "type", "components x count", "description"}, {}};
-  for (const io::ArrayInfo& array : archive.arrays)
-    arrays.rows.push_back(
-        {array.name, in_brackets(array.units), array.is_integer ? "integer" : "real",
-         std::to_string(array.components) + " x " + std::to_string(array.size / array.components),
-         array.description});
-  return path + ": checkpoint\n\n" + to_text(attributes) + '\n' + to_text(arrays);
+  return checkpoint_text(path, io::read_archive_header(path));
 }
 
 std::string variables_line(const char* kind, const std::vector<std::string>& names) {

@@ -4,6 +4,7 @@
 
 #include "deck/key_table.hpp"
 #include "deck/nearest_name.hpp"
+#include "deck/restart_keys.hpp"
 
 namespace cleave::driver {
 namespace {
@@ -39,7 +40,7 @@ std::string with_source(const KeySpec& key) {
 }
 
 // "real number [s], > 0; required" and the description below.
-std::string key_lines(const KeySpec& key, std::size_t width) {
+std::string key_lines(const GroupSpec& group, const KeySpec& key, std::size_t width) {
   std::string line = "  " + key.name;
   line.append(width - key.name.size() + 2, ' ');
   line += type_text(key.type);
@@ -47,6 +48,9 @@ std::string key_lines(const KeySpec& key, std::size_t width) {
   if (const std::string allowed = allowed_column(key); !allowed.empty()) line += ", " + allowed;
   if (const std::string value = default_text(key); !value.empty())
     line += key.required ? "; required" : "; default " + value;
+  if (const std::string restart = restart_text(restart_rule(group.name, key.name));
+      !restart.empty())
+    line += "; " + restart;
   return line + '\n' + std::string(width + 4, ' ') + with_source(key) + '\n';
 }
 
@@ -62,10 +66,10 @@ std::string group_text(const GroupSpec& group) {
   const std::size_t width = widest_name(group);
   std::string text =
       "&" + group.name + "  (" + repeat_text(group) + ")  " + group.description + '\n';
-  for (const KeySpec& key : group.keys) text += key_lines(key, width);
+  for (const KeySpec& key : group.keys) text += key_lines(group, key, width);
   for (const KeyVariant& variant : group.variants) {
     text += "  with " + group.selector + " = '" + variant.choice + "' (" + variant.title + "):\n";
-    for (const KeySpec& key : variant.keys) text += key_lines(key, width);
+    for (const KeySpec& key : variant.keys) text += key_lines(group, key, width);
   }
   return text;
 }
@@ -95,7 +99,7 @@ std::string group_listing(const GroupSpec& group, TextFormat format) {
 
 std::string key_listing(const GroupSpec& group, const KeySpec& key, TextFormat format) {
   if (format == TextFormat::markdown) return to_markdown(key_columns({key}));
-  std::string text = "&" + group.name + '\n' + key_lines(key, key.name.size());
+  std::string text = "&" + group.name + '\n' + key_lines(group, key, key.name.size());
   if (!key.since.empty())
     text += std::string(key.name.size() + 4, ' ') + "since " + key.since + '\n';
   return text;
@@ -145,6 +149,20 @@ std::string keys_listing(const std::string& topic, TextFormat format) {
   const auto known = all_keys(group);
   throw DeckError("&" + group.name + " has no key \"" + name + "\"" + did_you_mean(name, known) +
                   " Known keys: " + listed(known) + ".");
+}
+
+std::string restart_listing(TextFormat format) {
+  TextTable table{{"group", "key", "when", "what becomes of it"}, {}};
+  for (const RestartKey& entry : restart_keys()) {
+    for (const KeySpec& key : group_called(std::string(entry.group)).keys) {
+      if (entry.key != "*" && entry.key != key.name) continue;
+      const bool text = format == TextFormat::text;
+      const std::string group = "&" + std::string(entry.group);
+      table.rows.push_back({text ? group : code(group), text ? key.name : code(key.name),
+                            restart_text(entry.rule), std::string(entry.effect)});
+    }
+  }
+  return to_text(table, format);
 }
 
 std::string key_names() {

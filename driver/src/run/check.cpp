@@ -6,6 +6,7 @@
 
 #include "run/run.hpp"
 #include "run/simulation.hpp"
+#include "run/stop_file.hpp"
 #include "scene/format.hpp"
 #include "scene/index.hpp"
 
@@ -56,6 +57,7 @@ int check_deck(const Deck& deck, const RunOptions& options) {
       options.threads > 0 ? options.threads : static_cast<int>(deck.one("run").integer("threads"));
   Scene scene = Scene::from_deck(deck, threads);
   const TimeStep step = choose_time_step(scene);
+  StopFile(deck, FileNames::of_deck(deck)).refuse_leftover(deck);
   // Requests for output are checked like those of a run.
   const ResultsFile results(scene);
   const HistoryFile history(scene);

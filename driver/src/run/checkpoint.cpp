@@ -181,19 +181,44 @@ std::string not_finite(const Scene& scene) {
   return found;
 }
 
+std::string why_not_continued(const std::vector<io::Attribute>& attributes) {
+  const auto value = [&](const char* name) {
+    const auto at = std::find_if(attributes.begin(), attributes.end(),
+                                 [&](const io::Attribute& a) { return a.first == name; });
+    return at == attributes.end() ? io::AttributeValue{} : at->second;
+  };
+  const auto text = [&](const char* name) {
+    const io::AttributeValue found = value(name);
+    const auto* typed = std::get_if<std::string>(&found);
+    return typed == nullptr ? std::string() : *typed;
+  };
+  if (text("content") != "cleave checkpoint")
+    return "it is an archive, but not a checkpoint of a run; name a NAME.STEP.checkpoint.nc";
+  const std::string writer = "cleave " + text("cleave_version");
+  const std::string self = std::string("cleave ") + cleave_version();
+  const std::string what_to_do = ". Continue it with " + writer +
+                                 ", or start the run again with this version; the deck is in the "
+                                 "file: cleave info --deck FILE";
+  const io::AttributeValue format = value("format");
+  const auto* number_of = std::get_if<Index>(&format);
+  if (number_of == nullptr || *number_of != kFormat) {
+    return "it has checkpoint format " + (number_of == nullptr ? "unknown" : number(*number_of)) +
+           ", written by " + writer + "; " + self + " reads format " + number(kFormat) + what_to_do;
+  }
+  if (text("fields_fingerprint") != fingerprint()) {
+    return "its fields are those of " + writer + " (fingerprint " + text("fields_fingerprint") +
+           "), which differ from those of " + self + " (" + fingerprint() + ")" + what_to_do;
+  }
+  return {};
+}
+
 CheckpointHeader header_of(const io::Archive& archive, const std::string& path) {
-  if (attribute<std::string>(archive, "content", path) != "cleave checkpoint") {
-    damaged(path, "its content is not a cleave checkpoint");
-  }
-  const std::string& version = attribute<std::string>(archive, "cleave_version", path);
-  if (attribute<Index>(archive, "format", path) != kFormat ||
-      attribute<std::string>(archive, "fields_fingerprint", path) != fingerprint()) {
-    damaged(path, "it was written by cleave " + version + " with other fields than those of " +
-                      cleave_version());
-  }
+  const std::string why_not = why_not_continued(archive.attributes);
+  if (!why_not.empty()) throw DeckError(path + ": " + why_not);
   CheckpointHeader header;
   header.deck_text = attribute<std::string>(archive, "deck", path);
   header.deck_path = attribute<std::string>(archive, "deck_path", path);
+  header.resolved_deck = attribute<std::string>(archive, "resolved_deck", path);
   header.step = attribute<Index>(archive, "step", path);
   header.steps = attribute<Index>(archive, "steps", path);
   header.dt = attribute<double>(archive, "time_step", path);
@@ -201,6 +226,22 @@ CheckpointHeader header_of(const io::Archive& archive, const std::string& path) 
                     attribute<Index>(archive, "history_records", path),
                     attribute<Index>(archive, "event_records", path)};
   return header;
+}
+
+// Values that were filled in, not given, may have other defaults in another version.
+Deck deck_of(const CheckpointHeader& header) {
+  Deck deck = parse_deck(header.deck_text, header.deck_path);
+  const Deck resolved = parse_deck(header.resolved_deck, header.deck_path);
+  for (const DeckGroup& group : resolved.groups) {
+    const auto place = static_cast<std::size_t>(&group - resolved.groups.data());
+    if (place >= deck.groups.size() || deck.groups[place].name != group.name) break;
+    for (DeckKey& key : deck.groups[place].keys) {
+      const auto stored = std::find_if(group.keys.begin(), group.keys.end(),
+                                       [&](const DeckKey& k) { return k.name == key.name; });
+      if (stored != group.keys.end()) key.value = stored->value;
+    }
+  }
+  return deck;
 }
 
 std::vector<BodyGeometry> bodies_of(const io::Archive& archive, const Deck& deck,
@@ -229,8 +270,8 @@ std::vector<BodyGeometry> bodies_of(const io::Archive& archive, const Deck& deck
   return bodies;
 }
 
-void restore_fields(const io::Archive& archive, const CheckpointHeader& header, bool same_deck,
-                    Scene& scene, const std::string& path) {
+void restore_fields(const io::Archive& archive, const CheckpointHeader& header, Scene& scene,
+                    const std::string& path) {
   const auto put = [&](Index body, const cleave_field& field) {
     const std::string name = scene.bodies()[at(body)].name + "/" + field.name;
     const auto expected = at(field.count * field.components);
@@ -248,7 +289,7 @@ void restore_fields(const io::Archive& archive, const CheckpointHeader& header, 
       put_array(array<double>(archive, name, path));
     }
   };
-  if (same_deck) for_fields(scene, CLEAVE_LIFETIME_SETUP, put);
+  for_fields(scene, CLEAVE_LIFETIME_SETUP, put);
   for_fields(scene, CLEAVE_LIFETIME_STATE, put);
   const double time = static_cast<double>(header.step) * header.dt;
   check(cleave_model_restore(scene.model().handle(), header.step, time));

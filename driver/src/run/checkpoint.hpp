@@ -37,21 +37,27 @@ class Snapshot {
 // Name, or "", of the first state field with a value that is not finite, and where.
 std::string not_finite(const Scene& scene);
 
+// Why this version cannot continue a checkpoint with these attributes, and what to do; "" if it can.
+std::string why_not_continued(const std::vector<io::Attribute>& attributes);
+
 // What a checkpoint says apart from the fields. Reading throws DeckError for a file that is not a
 // checkpoint of this version.
 struct CheckpointHeader {
-  std::string deck_text, deck_path;
+  std::string deck_text, deck_path, resolved_deck;
   std::int64_t step = 0, steps = 0;
   double dt = 0;
   Cursors cursors;
 };
 CheckpointHeader header_of(const io::Archive& archive, const std::string& path);
+// The deck of a checkpoint: places as in its text, values as the run used them, whatever the defaults
+// of this version are.
+Deck deck_of(const CheckpointHeader& header);
 // The bodies of a checkpoint in the order of the deck.
 std::vector<BodyGeometry> bodies_of(const io::Archive& archive, const Deck& deck,
                                     const std::string& path);
-// Puts the fields into a model that was set up from those bodies, and sets its clock. same_deck:
-// the setup fields too; else they stay as the new deck made them (masses, critical strains, ...).
-void restore_fields(const io::Archive& archive, const CheckpointHeader& header, bool same_deck,
-                    Scene& scene, const std::string& path);
+// Puts all fields, of setup and state, into a model that was set up from those bodies, and sets its
+// clock.
+void restore_fields(const io::Archive& archive, const CheckpointHeader& header, Scene& scene,
+                    const std::string& path);
 
 }  // namespace cleave::driver

@@ -31,10 +31,19 @@ bool parse_name(const std::string& name, CheckpointFile& file) {
   return true;
 }
 
-std::vector<CheckpointFile> of_run(const FileNames& names) {
-  std::vector<CheckpointFile> files = checkpoint_files(names.directory);
-  std::erase_if(files, [&](const CheckpointFile& file) { return file.base != names.base; });
-  return files;
+// Removes what is called NAME.STEP.checkpoint.nc and `ending`, of this run.
+void remove_with_ending(const FileNames& names, const std::string& ending) {
+  std::error_code ignored;
+  std::vector<fs::path> found;
+  for (const auto& entry : fs::directory_iterator(names.directory, ignored)) {
+    const std::string name = entry.path().filename().string();
+    CheckpointFile file;
+    if (ends_with(name, ending) && parse_name(name.substr(0, name.size() - ending.size()), file) &&
+        file.base == names.base) {
+      found.push_back(entry.path());
+    }
+  }
+  for (const fs::path& path : found) fs::remove(path, ignored);
 }
 
 }  // namespace
@@ -54,8 +63,16 @@ std::vector<CheckpointFile> checkpoint_files(const fs::path& directory) {
   return files;
 }
 
+void remove_half_written(const FileNames& names) { remove_with_ending(names, ".part"); }
+
+std::vector<CheckpointFile> checkpoints_of(const FileNames& names) {
+  std::vector<CheckpointFile> files = checkpoint_files(names.directory);
+  std::erase_if(files, [&](const CheckpointFile& file) { return file.base != names.base; });
+  return files;
+}
+
 void remove_oldest(const FileNames& names, std::int64_t step, std::int64_t keep) {
-  std::vector<CheckpointFile> files = of_run(names);
+  std::vector<CheckpointFile> files = checkpoints_of(names);
   std::erase_if(files, [&](const CheckpointFile& file) { return file.step > step; });
   for (auto file = files.begin(); files.end() - file > keep; ++file) {
     std::error_code ignored;  // a checkpoint that cannot be removed does no harm
@@ -64,20 +81,11 @@ void remove_oldest(const FileNames& names, std::int64_t step, std::int64_t keep)
 }
 
 void set_aside(const FileNames& names) {
-  const std::vector<CheckpointFile> files = of_run(names);
+  const std::vector<CheckpointFile> files = checkpoints_of(names);
   if (files.empty()) return;
   const std::string ending = ".previous";
   std::error_code ignored;
-  std::vector<fs::path> older;
-  for (const auto& entry : fs::directory_iterator(names.directory, ignored)) {
-    const std::string name = entry.path().filename().string();
-    CheckpointFile file;
-    if (ends_with(name, ending) && parse_name(name.substr(0, name.size() - ending.size()), file) &&
-        file.base == names.base) {
-      older.push_back(entry.path());
-    }
-  }
-  for (const fs::path& path : older) fs::remove(path, ignored);
+  remove_with_ending(names, ending);
   for (const CheckpointFile& file : files) fs::rename(file.path, file.path + ending, ignored);
 }
 

@@ -17,6 +17,8 @@ struct CheckpointFile {
 
 // NAME.STEP.checkpoint.nc of a directory, newest step last.
 std::vector<CheckpointFile> checkpoint_files(const std::filesystem::path& directory);
+// The same, of one run.
+std::vector<CheckpointFile> checkpoints_of(const FileNames& names);
 
 // Removes the oldest of this run so that `keep` stay; those after `step` are not counted.
 void remove_oldest(const FileNames& names, std::int64_t step, std::int64_t keep);
@@ -24,6 +26,9 @@ void remove_oldest(const FileNames& names, std::int64_t step, std::int64_t keep)
 // A new run makes the checkpoints of an earlier one useless for its files: they are renamed to
 // ....previous, in the place of those that had this name.
 void set_aside(const FileNames& names);
+
+// What a killed process left of a checkpoint that it was writing.
+void remove_half_written(const FileNames& names);
 
 // The checkpoint that a restart starts from.
 struct Loaded {

@@ -87,6 +87,7 @@ void Progress::note(const std::string& line) { print(line, true); }
 
 void Progress::warn(const std::string& text) {
   ++warnings_;
+  if (quiet_) std::fputs(("cleave: warning: " + text + "\n").c_str(), stderr);
   print("warning: " + text, true);
 }
 

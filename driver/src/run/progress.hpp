@@ -1,6 +1,6 @@
 // What a run tells the person who waits: a banner, a status line per interval, a last line. On
-// standard output; nothing with --quiet. On a terminal the status line is rewritten in place with a
-// bar.
+// standard output; with --quiet only warnings, on standard error. On a terminal the status line is
+// rewritten in place with a bar.
 #pragma once
 
 #include <chrono>

@@ -1,11 +1,11 @@
 #include "run/run.hpp"
 
-#include <algorithm>
+#include <cstdio>
 
-#include "deck/units.hpp"
 #include "run/checkpoint_files.hpp"
+#include "run/restart_deck.hpp"
 #include "run/simulation.hpp"
-#include "scene/format.hpp"
+#include "run/stop_file.hpp"
 
 namespace cleave::driver {
 namespace {
@@ -15,18 +15,12 @@ int threads_of(const Deck& deck, const RunOptions& options) {
                              : static_cast<int>(deck.one("run").integer("threads"));
 }
 
-// The deck that a restart follows, with the text of the checkpoint if no other is given.
-Deck restart_deck(const CheckpointHeader& header, const std::string& deck_path) {
-  return deck_path.empty() ? parse_deck(header.deck_text, header.deck_path) : read_deck(deck_path);
-}
-
-// Steps and increments are counted on from the checkpoint: their size and meaning stay.
-void keep_mode(const Deck& deck, const CheckpointHeader& header) {
-  const std::string was = parse_deck(header.deck_text, header.deck_path).one("run").text("mode");
-  const DeckGroup& run = deck.one("run");
-  if (run.text("mode") == was) return;
-  deck.fail(run, "mode",
-            "the checkpoint is of a run with mode = " + in_quotes(was) + "; a restart keeps it");
+void say(const RestartDeck& restart, const std::string& checkpoint, const RunOptions& options) {
+  if (options.quiet || restart.changes.empty()) return;
+  std::string text = restart.deck.source.path + ": changes to the deck of " + checkpoint + ":\n";
+  for (const std::string& change : restart.changes) text += "  " + change + '\n';
+  std::fputs(text.c_str(), stdout);
+  std::fflush(stdout);
 }
 
 FileNames names_beside(const Deck& deck, const std::string& checkpoint) {
@@ -40,9 +34,10 @@ FileNames names_beside(const Deck& deck, const std::string& checkpoint) {
 
 int run_deck(const Deck& deck, const RunOptions& options) {
   const FileNames names = FileNames::of_deck(deck);
+  StopFile(deck, names).refuse_leftover(deck);  // before a long set-up
   Scene scene = Scene::from_deck(deck, threads_of(deck, options));
   const TimeStep step = choose_time_step(scene);
-  Simulation simulation(scene, step, names, options.quiet);
+  Simulation simulation(scene, step, names, options);
   return simulation.run();
 }
 
@@ -50,21 +45,26 @@ int restart_run(const std::string& checkpoint_or_directory, const std::string& d
                 const RunOptions& options) {
   Loaded loaded = load_checkpoint(checkpoint_or_directory);
   const CheckpointHeader header = header_of(loaded.archive, loaded.path);
-  const Deck deck = restart_deck(header, deck_path);
-  keep_mode(deck, header);
+  std::optional<Deck> other;
+  if (!deck_path.empty()) other = read_deck(deck_path);
+  const RestartDeck restart = restart_deck(header, std::move(other));
+  const Deck& deck = restart.deck;
+  say(restart, loaded.path, options);
+  const FileNames names = names_beside(deck, loaded.path);
+  StopFile(deck, names).refuse_leftover(deck);
   Scene scene = Scene::from_bodies(deck, bodies_of(loaded.archive, deck, loaded.path),
                                    threads_of(deck, options));
-  restore_fields(loaded.archive, header, deck_path.empty(), scene, loaded.path);
+  restore_fields(loaded.archive, header, scene, loaded.path);
   loaded.archive = {};  // as large as the model
   TimeStep step;
-  step.clock = {header.dt, deck_path.empty()
+  step.clock = {header.dt, restart.changes.empty()
                                ? header.steps
                                : steps_to_end(deck.one("run").real("t_end"), header.dt)};
   step.stable = scene.stable_step();
-  const FileNames names = names_beside(deck, loaded.path);
   std::vector<std::string> notes;
   for (const std::string& skipped : loaded.skipped) notes.push_back("skipped " + skipped);
-  Simulation simulation(scene, step, names, options.quiet);
+  Simulation simulation(scene, step, names, options);
+  write_changes(restart, names, header.step);
   return simulation.resume(header, notes);
 }
 

@@ -5,6 +5,7 @@
 // run (1).
 #pragma once
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -20,6 +21,8 @@ struct RunError : std::runtime_error {
 struct RunOptions {
   int threads = 0;  // 0: as the deck says
   bool quiet = false;
+  // Seconds, 0: none; instead of what the deck says.
+  std::optional<double> wall_limit = {};
 };
 
 int run_deck(const Deck& deck, const RunOptions& options);

@@ -76,9 +76,9 @@ void sample_checkpoint(const SampleRequest& request,
                        const std::function<void(std::string_view)>& out) {
   const Loaded loaded = load_checkpoint(request.checkpoint);
   const CheckpointHeader header = header_of(loaded.archive, loaded.path);
-  const Deck deck = parse_deck(header.deck_text, header.deck_path);
+  const Deck deck = deck_of(header);
   Scene scene = Scene::from_bodies(deck, bodies_of(loaded.archive, deck, loaded.path), 1);
-  restore_fields(loaded.archive, header, true, scene, loaded.path);
+  restore_fields(loaded.archive, header, scene, loaded.path);
   const Index body = body_index(scene, request.body);
   const bool plane = scene.bodies()[at(body)].dimension == 2;
 

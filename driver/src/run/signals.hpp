@@ -1,22 +1,29 @@
-// SIGINT and SIGTERM during a run: finish the step, write a checkpoint, stop.
+// Signals during a run. SIGUSR1: write a checkpoint and go on. SIGTERM, SIGINT: finish the step,
+// write a checkpoint, stop.
 #pragma once
 
+#include <array>
 #include <csignal>
 
 namespace cleave::driver {
 
-// While it lives, the first SIGINT or SIGTERM sets a flag; a second one has its usual effect. The
-// former handlers come back afterwards.
-class StopRequest {
+// While it lives: a second SIGINT has its usual effect, at once; any more SIGTERM is the same
+// request, as queues send it to every process of a job and again; a file that grows beyond the
+// size limit of the shell is an error of that file and not the end (SIGXFSZ). The former handlers
+// come back afterwards.
+class Signals {
  public:
-  StopRequest();
-  ~StopRequest();
-  StopRequest(const StopRequest&) = delete;
-  StopRequest& operator=(const StopRequest&) = delete;
-  bool requested() const;
+  Signals();
+  ~Signals();
+  Signals(const Signals&) = delete;
+  Signals& operator=(const Signals&) = delete;
+
+  bool stop_requested() const;
+  // True once for one or more SIGUSR1 since the last call.
+  bool take_write_request();
 
  private:
-  struct sigaction old_interrupt_, old_terminate_;
+  std::array<struct sigaction, 4> former_;
 };
 
 }  // namespace cleave::driver

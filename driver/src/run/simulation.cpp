@@ -6,6 +6,7 @@
 
 #include "io/error.hpp"
 #include "run/checkpoint_files.hpp"
+#include "run/wall_time.hpp"
 #include "scene/format.hpp"
 #include "scene/index.hpp"
 
@@ -17,6 +18,11 @@ Schedule history_schedule(const Deck& deck, const Clock& clock) {
   const Schedule asked(deck.one("history"), clock.dt);
   if (!asked.never()) return asked;
   return Schedule(0.0, std::max<Index>(1, (clock.steps + 500) / 1000), clock.dt);
+}
+
+WallKeys wall_keys(const DeckGroup& checkpoint, const RunOptions& options) {
+  return {checkpoint.real("every_wall"),
+          options.wall_limit.value_or(checkpoint.real("wall_limit"))};
 }
 
 void write_text(const std::string& path, const std::string& text) {
@@ -37,23 +43,27 @@ void make_directory(const std::filesystem::path& directory) {
 
 }  // namespace
 
-Simulation::Simulation(Scene& scene, const TimeStep& step, FileNames names, bool quiet)
+Simulation::Simulation(Scene& scene, const TimeStep& step, FileNames names,
+                       const RunOptions& options)
     : scene_(scene),
       step_(step),
       stepping_(scene.deck()),
       names_(std::move(names)),
-      progress_(quiet, scene.deck().one("run")),
+      progress_(options.quiet, scene.deck().one("run")),
       results_(scene),
       history_(scene),
       result_schedule_(scene.deck().one("output"), step.clock.dt),
       history_schedule_(history_schedule(scene.deck(), step.clock)),
-      checkpoint_schedule_(scene.deck().one("checkpoint"), step.clock.dt),
-      keep_(scene.deck().one("checkpoint").integer("keep")),
+      trigger_(Schedule(scene.deck().one("checkpoint"), step.clock.dt),
+               wall_keys(scene.deck().one("checkpoint"), options), scene.model().memory()),
+      writer_(scene.deck().one("checkpoint")),
+      stop_file_(scene.deck(), names_),
       checkpoint_at_end_(scene.deck().one("checkpoint").logical("at_end")) {}
 
 int Simulation::run() {
   make_directory(names_.directory);
   set_aside(names_);
+  remove_half_written(names_);
   write_text(names_.resolved(), scene_.deck().resolved(names_.directory.string()));
   results_.create(names_.results());
   history_.create(names_, scene_, step_.clock);
@@ -71,6 +81,7 @@ int Simulation::run() {
 }
 
 int Simulation::resume(const CheckpointHeader& header, const std::vector<std::string>& notes) {
+  remove_half_written(names_);
   results_.reopen(names_.results(), header.cursors.frames);
   history_.reopen(names_, scene_, header.cursors.history);
   events_.reopen(names_.events(), scene_, header.cursors.events);
@@ -80,20 +91,15 @@ int Simulation::resume(const CheckpointHeader& header, const std::vector<std::st
 }
 
 int Simulation::loop(Index first_step) {
-  const StopRequest stop;
+  Signals signals;
   Index step = first_step;
   good_.take(scene_, step, cursors());
+  trigger_.begin(seconds_since_start());
   try {
-    steps(step, stop);
-    if (step < step_.clock.steps) {
-      write_checkpoint(step);
-      progress_.finish("stopped on request after step " + number(step) + " of " +
-                           number(step_.clock.steps) + "; continue with: cleave restart " +
-                           newest_checkpoint_,
-                       file_list());
-      return 3;
-    }
+    const std::string stopped = steps(step, signals);
+    if (!stopped.empty()) return stop(step, stopped);
     if (checkpoint_at_end_ && step > first_step) write_checkpoint(step);
+    stop_file_.remove();
   } catch (const KernelError& error) {
     fail(step, error.what());
   } catch (const io::Error& error) {
@@ -106,24 +112,33 @@ int Simulation::loop(Index first_step) {
   return 0;
 }
 
-void Simulation::steps(Index& step, const StopRequest& stop) {
-  while (step < step_.clock.steps && !stop.requested()) {
+std::string Simulation::steps(Index& step, Signals& signals) {
+  const Index last = step_.clock.steps;
+  std::string stopped;
+  while (step < last && stopped.empty()) {
     stepping_.step(scene_, step_.clock, step);
     ++step;
     after_step(step);
+    const double wall = seconds_since_start();
+    const CheckpointVerdict verdict = trigger_.after_step(
+        step, wall,
+        {signals.take_write_request(), signals.stop_requested(), stop_file_.appeared(wall)});
+    if (verdict.action == CheckpointAction::stop && step < last) {
+      stopped = verdict.why;
+    } else if (verdict.action != CheckpointAction::none && !(step == last && checkpoint_at_end_)) {
+      const bool written = write_checkpoint(step);
+      if (written && !verdict.why.empty()) progress_.note(verdict.why + ": " + writer_.newest());
+    }
   }
-  if (step == step_.clock.steps) {
-    progress_.status(scene_.model(), step_.clock, step, finite_energies(step));
-  }
+  if (step == last) progress_.status(scene_.model(), step_.clock, step, finite_energies(step));
   events_.flush();
   history_.flush();
+  return stopped;
 }
 
 void Simulation::after_step(Index step) {
   events_.collect(scene_, scene_.model(), step);
   write_outputs(step);
-  const bool last = step == step_.clock.steps;
-  if (checkpoint_schedule_.due(step) && !(last && checkpoint_at_end_)) write_checkpoint(step);
   if (progress_.due()) {
     const cleave_energies energies = finite_energies(step);
     good_.take(scene_, step, cursors());
@@ -161,16 +176,32 @@ cleave_energies Simulation::finite_energies(Index step) const {
                     CLEAVE_NOT_FINITE);
 }
 
-void Simulation::write_checkpoint(Index step) {
+bool Simulation::write_checkpoint(Index step) {
+  const double begin = seconds_since_start();
   finite_energies(step);
-  // The checkpoint counts on these records: they must be on the disk before it is.
-  events_.sync();
-  history_.sync();
-  results_.sync();
   good_.take(scene_, step, cursors());
-  newest_checkpoint_ = names_.checkpoint(step);
-  good_.write(newest_checkpoint_, scene_, step_.clock);
-  remove_oldest(names_, step, keep_);
+  const bool written = writer_.write(names_, step, [this](const std::string& path) {
+    // The checkpoint counts on these records: they must be on the disk before it is.
+    events_.sync();
+    history_.sync();
+    results_.sync();
+    good_.write(path, scene_, step_.clock);
+  });
+  trigger_.attempted(begin, seconds_since_start());
+  if (!written) progress_.warn(writer_.failure());
+  return written;
+}
+
+// 3 promises a checkpoint to continue from.
+int Simulation::stop(Index step, const std::string& why) {
+  const std::string when = why + " after step " + number(step) + " of " + number(step_.clock.steps);
+  if (!write_checkpoint(step)) {
+    throw RunError(when + ", but there is " + writer_.failure() + "\n" +
+                   CheckpointWriter::advice(names_));
+  }
+  stop_file_.remove();
+  progress_.finish(when + "; continue with: cleave restart " + writer_.newest(), file_list());
+  return 3;
 }
 
 void Simulation::fail(Index step, const std::string& what) {
@@ -194,7 +225,7 @@ Cursors Simulation::cursors() const {
 
 std::vector<std::string> Simulation::file_list() const {
   std::vector<std::string> files{names_.results(), names_.history(), names_.events()};
-  if (!newest_checkpoint_.empty()) files.push_back(newest_checkpoint_);
+  if (!writer_.newest().empty()) files.push_back(writer_.newest());
   return files;
 }
 

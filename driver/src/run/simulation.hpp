@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "run/checkpoint.hpp"
+#include "run/checkpoint_trigger.hpp"
+#include "run/checkpoint_writer.hpp"
 #include "run/events_file.hpp"
 #include "run/file_names.hpp"
 #include "run/history_file.hpp"
@@ -15,6 +17,7 @@
 #include "run/schedule.hpp"
 #include "run/signals.hpp"
 #include "run/stepping.hpp"
+#include "run/stop_file.hpp"
 #include "run/time_step.hpp"
 #include "scene/scene.hpp"
 
@@ -22,7 +25,7 @@ namespace cleave::driver {
 
 class Simulation {
  public:
-  Simulation(Scene& scene, const TimeStep& step, FileNames names, bool quiet);
+  Simulation(Scene& scene, const TimeStep& step, FileNames names, const RunOptions& options);
 
   // From time 0, with new files. Returns the exit code; throws RunError.
   int run();
@@ -31,10 +34,13 @@ class Simulation {
 
  private:
   int loop(std::int64_t first_step);
-  void steps(std::int64_t& step, const StopRequest& stop);
+  // Until the end, or until a checkpoint and a stop are asked for; returns why, or "".
+  std::string steps(std::int64_t& step, Signals& signals);
   void after_step(std::int64_t step);
   void write_outputs(std::int64_t step);
-  void write_checkpoint(std::int64_t step);
+  // False: it could not be written, and the run may go on.
+  bool write_checkpoint(std::int64_t step);
+  int stop(std::int64_t step, const std::string& why);
   void keep_good_state(std::int64_t step);
   // Throws KernelError if the ledger is not finite, which any bad value ends in.
   cleave_energies finite_energies(std::int64_t step) const;
@@ -50,12 +56,13 @@ class Simulation {
   ResultsFile results_;
   HistoryFile history_;
   EventsFile events_;
-  Schedule result_schedule_, history_schedule_, checkpoint_schedule_;
-  std::int64_t keep_;
+  Schedule result_schedule_, history_schedule_;
+  CheckpointTrigger trigger_;
+  CheckpointWriter writer_;
+  StopFile stop_file_;
   bool checkpoint_at_end_;
   Snapshot good_;  // the last state known to be finite
   double snapshot_seconds_ = 0;
-  std::string newest_checkpoint_;
 };
 
 }  // namespace cleave::driver

@@ -128,6 +128,17 @@ bool Curve::is_constant() const {
                      [&](double v) { return v == table_.values.front(); });
 }
 
+bool Curve::is_zero_until(double time) const {
+  const double t = time - begin_;
+  if (t < 0) return true;
+  if (smooth_) return false;
+  // The knot after `time` too: at a kink the values are those just after it.
+  auto last = std::upper_bound(table_.times.begin(), table_.times.end(), t);
+  if (last != table_.times.end()) ++last;
+  return std::all_of(table_.values.begin(), table_.values.begin() + (last - table_.times.begin()),
+                     [](double v) { return v == 0; });
+}
+
 const char* Curve::jump(MotionKind kind) const {
   if (smooth_ || kind == MotionKind::acceleration) return "";
   const bool jumps_at_begin = begin_ > 0 && table_.values.front() != 0.0;

@@ -26,6 +26,8 @@ class Curve {
   // exact and start from zero at `begin`. A smooth displacement is [CBM 26], the others are [CBM
   // 30]. At a kink the values are those just after it.
   MotionValue motion(MotionKind kind, double value, double time) const;
+  // Zero with its derivatives at every time up to this one.
+  bool is_zero_until(double time) const;
   // Why the accelerations of this curve alone cannot reproduce it (a jump of displacement or
   // velocity during the run); empty if they can.
   const char* jump(MotionKind kind) const;

@@ -50,7 +50,7 @@ void check_keys(const Deck& deck, const DeckGroup& load) {
   if (load.text("set").empty() && kind != "body_force" && kind != "gravity") {
     deck.fail(load, "set", "kind = " + in_quotes(kind) + " needs the set it acts on");
   }
-  if (load.given("prescription")) {
+  if (load.given("prescription") && load.text("prescription") != "exact") {  // the default
     deck.fail(load, "prescription",
               "prescription belongs to displacement, velocity and acceleration, not to kind = " +
                   in_quotes(kind));

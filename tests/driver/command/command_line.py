@@ -150,6 +150,47 @@ class CommandLine(unittest.TestCase):
         (self.folder / "empty.nc").write_text("")
         self.assertIn("empty.nc", self.refused("info", "empty.nc"))
 
+    def test_info_lists_and_verifies_checkpoints(self):
+        deck = ("&run units='other' t_end=2 time_step=0.5 /\n"
+                "&lattice type='square' spacing=1 size=2,2,0 /\n"
+                "&body kinematics='plane_stress' material='m' /\n"
+                "&material name='m' law='svk' E=1 nu=0.25 rho=1 /\n&checkpoint every_steps=2 /\n")
+        (self.folder / "case.nml").write_text(deck)
+        self.printed("--quiet", "case.nml")
+        self.assertEqual(self.printed("info", ".").count(" verified\n"), 2)
+        self.assertEqual(self.printed("info", "--deck", "case.4.checkpoint.nc"), deck)
+        self.assertIn("after step 4 of 4, time 2.0", self.printed("info", "case.4.checkpoint.nc"))
+        for name in ("case.4.checkpoint.nc", "case.exo", "case.history.nc", "."):
+            self.printed("info", "--verify", name)
+        broken = self.folder / "case.4.checkpoint.nc"
+        with broken.open("r+b") as file:
+            file.seek(-3, 2)
+            file.write(b"x")
+        run = self.cleave("info", "--verify", broken.name)
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("is damaged", run.stdout)
+        self.assertEqual(self.cleave("info", "--verify", ".").returncode, 1)
+        self.assertIn("broken: ", self.printed("info", "."))
+        self.refused("info", "--deck", "case.exo")
+
+    def test_restart_says_what_a_deck_changes(self):
+        deck = ("&run units='other' name='case' t_end={} time_step=0.5 /\n"
+                "&lattice type='square' spacing=1 size=2,2,0 /\n"
+                "&body kinematics='plane_stress' material='m' /\n"
+                "&material name='m' law='svk' E={} nu=0.25 rho=1 /\n")
+        (self.folder / "case.nml").write_text(deck.format(2, 1))
+        (self.folder / "longer.nml").write_text(deck.format(3, 1))
+        (self.folder / "stiffer.nml").write_text(deck.format(3, 2))
+        self.printed("--quiet", "case.nml")
+        why = self.refused("restart", ".", "--deck", "stiffer.nml")
+        self.assertIn("stiffer.nml:4:30: &material 'm', key E: the checkpoint has 1.0, this deck 2.0", why)
+        said = self.printed("restart", ".", "--deck", "longer.nml")
+        self.assertTrue(said.startswith("longer.nml: changes to the deck of ./case.4.checkpoint.nc:\n"
+                                        "  &run t_end: 2.0 -> 3.0\ncleave "), said)
+        listed = self.printed("keys", "--restart")
+        self.assertIn("t_end", listed)
+        self.assertNotIn("time_step", listed)
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])

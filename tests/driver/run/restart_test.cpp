@@ -95,7 +95,7 @@ TEST_F(Restart, AnotherDeckMustHaveTheSameBodies) {
   other.replace(other.find("'plate'"), 7, "'sheet'");
   std::ofstream(path("other.nml")) << "&run units='other' name='case' t_end=40 /\n" << other;
   EXPECT_TRUE(has(message_of<DeckError>([&] { restart_run(path(""), path("other.nml"), quiet); }),
-                  "holds other bodies: plate"));
+                  "&body 'plate', key name: the checkpoint has 'plate', this deck 'sheet'"));
 }
 
 TEST_F(Restart, FinishedRunHasNothingToDo) {

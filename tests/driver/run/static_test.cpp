@@ -177,13 +177,27 @@ TEST_F(Static, RefusesWhatNeedsInertia) {
   EXPECT_TRUE(fs::is_empty(directory));
 }
 
+// Twice the time in twice the increments is the run that was planned so.
+TEST_F(Static, LaterEndKeepsTheIncrement) {
+  const std::string groups = fem_block("linear") +
+                             "&load kind='displacement' set='ymin' directions='xy' /\n"
+                             "&load kind='displacement' set='ymax' directions='y' value=0.1 "
+                             "curve='linear' ramp=2 /\n&static increments=";
+  run("mode='static' t_end=1", groups + "4 /\n", "short");
+  run("mode='static' t_end=2", groups + "8 /\n", "long");
+  std::ofstream(path("later.nml")) << "&run units='other' mode='static' t_end=2 /\n"
+                                   << groups << "4 /\n";
+  EXPECT_EQ(restart_run(path("short"), path("later.nml"), quiet), 0);
+  EXPECT_EQ(file_bytes(path("short/case.history.nc")), file_bytes(path("long/case.history.nc")));
+}
+
 TEST_F(Static, RestartKeepsTheMode) {
   run("mode='static' t_end=1",
       fem_block("linear") + "&load kind='displacement' set='ymin' directions='xy' /\n");
   std::ofstream(path("other.nml")) << "&run units='other' name='case' t_end=2 /\n"
                                    << fem_block("linear");
   EXPECT_TRUE(has(message_of<DeckError>([&] { restart_run(path(""), path("other.nml"), quiet); }),
-                  "mode = 'static'; a restart keeps it"));
+                  "key mode: the checkpoint has 'static', this deck 'dynamic'"));
 }
 
 }  // namespace

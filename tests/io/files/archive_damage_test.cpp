@@ -6,6 +6,7 @@
 
 #include "io/archive.hpp"
 #include "io/error.hpp"
+#include "io/netcdf_layout.hpp"
 #include "sample_archive.hpp"
 #include "scratch_folder.hpp"
 
@@ -43,6 +44,31 @@ TEST_F(DamagedArchive, AFlippedBitInAnyByteIsFound) {
     damaged[i] = static_cast<char>(damaged[i] ^ (1 << (i % 8)));
     put_bytes(path_, damaged);
     ASSERT_EQ(accepted(path_, i % 16 < 8 ? read_all : verify_archive), "") << "byte " << i;
+  }
+}
+
+// Every bit of a byte, in an archive as large as a small checkpoint: dense in the header, sparse behind it.
+TEST_F(DamagedArchive, EveryBitOfSampledBytesIsFound) {
+  std::mt19937 random(3);
+  Archive archive = sample_archive();
+  for (int i = 0; i < 30; ++i) {
+    std::vector<double> values(1 + random() % 3000);
+    for (double& value : values) value = static_cast<double>(random());
+    archive.arrays.push_back({"plate/field" + std::to_string(i), "m", "a field", 1, values});
+  }
+  write_archive(path_, archive);
+  const std::string whole = bytes_of(path_);
+  const auto header = static_cast<std::size_t>(read_netcdf_layout(path_).header_bytes);
+  std::vector<std::size_t> places;
+  for (std::size_t i = random() % 41; i < header; i += 1 + random() % 81) places.push_back(i);
+  for (int i = 0; i < 100; ++i) places.push_back(header + random() % (whole.size() - header));
+  for (const std::size_t place : places) {
+    for (int bit = 0; bit < 8; ++bit) {
+      std::string damaged = whole;
+      damaged[place] = static_cast<char>(damaged[place] ^ (1 << bit));
+      put_bytes(path_, damaged);
+      ASSERT_EQ(accepted(path_, verify_archive), "") << "byte " << place << ", bit " << bit;
+    }
   }
 }
 
