@@ -85,11 +85,10 @@ void batch(benchmark::State& state) {
 }
 BENCHMARK(batch)->ArgName("plastic")->Arg(0)->Arg(1);
 
-// The same points kept by component, F in and Cauchy stress out, in blocks of 128 as host programs call.
-// measure: enum cleave_stress_measure.
+// The same points kept by component, F in and Cauchy stress out, in blocks as host programs call.
+// measure: enum cleave_stress_measure; block: points of a call.
 void host_blocks(benchmark::State& state) {
   Points points(false);
-  constexpr std::int64_t kHostBlock = 128;
   std::vector<double> f(9 * kPoints), history(8 * kPoints, 0.0), stress(6 * kPoints);
   for (std::int64_t q = 0; q < kPoints; ++q)
     for (std::int64_t c = 0; c < 9; ++c)
@@ -112,7 +111,7 @@ void host_blocks(benchmark::State& state) {
     std::copy_n(six, 9, call.stress_order);
     call.stress_measure = static_cast<std::int32_t>(state.range(0));
     for (call.first = 0; call.first < kPoints; call.first = call.last) {
-      call.last = call.first + kHostBlock;
+      call.last = call.first + state.range(1);
       if (cleave_material_update(&call) != CLEAVE_OK) throw std::runtime_error("no answer");
     }
     benchmark::ClobberMemory();
@@ -120,10 +119,11 @@ void host_blocks(benchmark::State& state) {
   report(state);
 }
 BENCHMARK(host_blocks)
-    ->ArgName("measure")
-    ->Arg(CLEAVE_STRESS_CAUCHY)
-    ->Arg(CLEAVE_STRESS_COROTATED)
-    ->Arg(CLEAVE_STRESS_SECOND_PIOLA);
+    ->ArgNames({"measure", "block"})
+    ->Args({CLEAVE_STRESS_CAUCHY, 1})
+    ->Args({CLEAVE_STRESS_CAUCHY, 128})
+    ->Args({CLEAVE_STRESS_COROTATED, 128})
+    ->Args({CLEAVE_STRESS_SECOND_PIOLA, 128});
 
 void point_by_point(benchmark::State& state) {
   Points points(state.range(0) != 0);

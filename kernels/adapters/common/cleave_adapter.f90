@@ -86,7 +86,7 @@ module cleave_adapter
 contains
 
   ! The law called `name`, in any case, blank-padded. Looked up on every call, nothing is kept, so
-  ! that there is nothing to initialise or to lock: 0.2 us, as long as the update of two points.
+  ! that there is nothing to initialise or to lock; the tables are short.
   recursive subroutine adapter_find_law(name, law, status)
     character(len=*), intent(in) :: name
     type(adapter_law), intent(out) :: law
