@@ -16,11 +16,7 @@ namespace {
 
 const cleave_network& checked(const cleave_network* network) {
   const cleave_network& n = required(network, "network");
-  if (n.size != static_cast<int64_t>(sizeof(cleave_network))) {
-    throw Error(CLEAVE_ABI_MISMATCH,
-                text("cleave_network has size ", n.size, ", this library expects ",
-                     sizeof(cleave_network), "; call cleave_network_init first"));
-  }
+  check_size(n, "cleave_network");
   check_dimension(n.dimension);
   check_index_base(n.index_base);
   check_rows(0, n.particles);

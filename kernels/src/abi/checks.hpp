@@ -14,6 +14,14 @@ inline void check_dimension(std::int32_t dimension) {
   }
 }
 
+// A struct that the caller filled by its init function; `type`: its name, which is that of the function.
+template <class T>
+void check_size(const T& given, const char* type) {
+  if (given.size == static_cast<std::int64_t>(sizeof(T))) return;
+  throw Error(CLEAVE_ABI_MISMATCH, text(type, " has size ", given.size, ", this library expects ",
+                                        sizeof(T), "; fill it with ", type, "_init first"));
+}
+
 inline void check_index_base(std::int32_t base) {
   if (base != 0 && base != 1)
     throw Error(CLEAVE_BAD_ARGUMENT, text("index_base is ", base, "; allowed: 0, 1"));

@@ -17,11 +17,7 @@ constexpr std::int64_t kBlock = 64;
 
 const cleave_material_call& checked(const cleave_material_call* call) {
   const cleave_material_call& c = required(call, "call");
-  if (c.size != static_cast<std::int64_t>(sizeof(cleave_material_call))) {
-    throw Error(CLEAVE_ABI_MISMATCH,
-                text("cleave_material_call has size ", c.size, ", this library expects ",
-                     sizeof(cleave_material_call), "; call cleave_material_call_init first"));
-  }
+  check_size(c, "cleave_material_call");
   check_rows(c.first, c.last);
   if (!(c.dt >= 0 && std::isfinite(c.dt)))
     throw Error(CLEAVE_BAD_ARGUMENT, text("dt is ", c.dt, "; allowed: 0 (statics) and above"));

@@ -110,10 +110,7 @@ int32_t cleave_body_add(cleave_model* model, const cleave_body_spec* spec, int64
   return guarded("cleave_body_add", [&] {
     checked(model).require(Phase::building, kBeforeSetup);
     required(body, "body");
-    if (required(spec, "spec").size != static_cast<int64_t>(sizeof(cleave_body_spec))) {
-      throw Error(CLEAVE_ABI_MISMATCH, text("cleave_body_spec has size ", spec->size,
-                                            "; fill it with cleave_body_spec_init"));
-    }
+    check_size(required(spec, "spec"), "cleave_body_spec");
     required(spec->X, "spec->X");
     if (spec->simplex_count > 0) required(spec->simplices, "spec->simplices");
     model->bodies.push_back(
@@ -254,10 +251,7 @@ int32_t cleave_model_solve_static(cleave_model* model, double time_new,
     if (report != nullptr) fill_sized(report, cleave_static_report{}, "report");
     StaticOptions wanted;
     if (options != nullptr) {
-      if (options->size != static_cast<int64_t>(sizeof(cleave_static_options))) {
-        throw Error(CLEAVE_ABI_MISMATCH, text("cleave_static_options has size ", options->size,
-                                              "; fill it with cleave_static_options_init"));
-      }
+      check_size(*options, "cleave_static_options");
       wanted = {options->tolerance, options->max_iterations};
     }
     const StaticReport done = solve_static(*model, time_new, wanted);
