@@ -2,6 +2,7 @@
 #include "io/archive.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <map>
 #include <set>
@@ -23,20 +24,13 @@ std::string name_in_file(std::string name) {
   return name;
 }
 
-std::int64_t size_of(const ArrayData& data) {
-  return std::visit([](const auto& values) { return std::ssize(values); }, data);
-}
-
-std::uint64_t checksum_of(const ArrayData& data) {
-  return std::visit([](const auto& values) { return crc64(std::span(values)); }, data);
-}
-
-ArchiveHeader describe(const Archive& archive) {
+// The checksums are not known yet.
+ArchiveHeader describe(const ArchiveSource& archive) {
   ArchiveHeader header{archive.attributes, {}};
-  for (const NamedArray& array : archive.arrays) {
-    const bool is_integer = std::holds_alternative<std::vector<std::int64_t>>(array.data);
-    header.arrays.push_back({array.name, array.units, array.description, is_integer,
-                             array.components, size_of(array.data), checksum_of(array.data)});
+  for (const ArraySource& array : archive.arrays) {
+    const bool is_integer = std::holds_alternative<ReadValues<std::int64_t>>(array.read);
+    header.arrays.push_back(
+        {array.name, array.units, array.description, is_integer, array.components, array.size, 0});
   }
   return header;
 }
@@ -84,18 +78,18 @@ void check_unique(const std::string& path, const std::string& what, const std::s
   }
 }
 
-void check_archive(const std::string& path, const Archive& archive) {
+void check_archive(const std::string& path, const ArchiveSource& archive) {
   std::set<std::string> seen{kFormat};
   for (const auto& [name, value] : archive.attributes) {
     check_name(path, "attribute", name, false);
     check_unique(path, "attribute", name, seen);
   }
   seen = {kHeaderChecksum};
-  for (const NamedArray& array : archive.arrays) {
+  for (const ArraySource& array : archive.arrays) {
     check_name(path, "array", array.name, true);
     check_unique(path, "array", array.name, seen);
-    if (array.components < 1 || size_of(array.data) % array.components != 0) {
-      throw Error(path + ": array '" + array.name + "' has " + std::to_string(size_of(array.data)) +
+    if (array.components < 1 || array.size % array.components != 0) {
+      throw Error(path + ": array '" + array.name + "' has " + std::to_string(array.size) +
                   " values, which is not a multiple of its " + std::to_string(array.components) +
                   " components");
     }
@@ -169,12 +163,35 @@ void define_header(const NetcdfFile& file, const ArchiveHeader& header) {
         define_variable(file, name_in_file(array.name), array.is_integer, dimensions.of(array));
     file.put_text(variable, "units", array.units);
     file.put_text(variable, "long_name", array.description);
-    file.put_text(variable, "checksum", checksum_text(array.checksum));
+    file.put_text(variable, kChecksum, checksum_text(array.checksum));
   }
   file.end_definitions();
 }
 
-void write_contents(const std::string& path, const ArchiveHeader& header, const Archive& archive) {
+// Writes the values of array `variable` and returns their checksum.
+template <class T>
+std::uint64_t write_values(const NetcdfFile& file, int variable, const ArraySource& array,
+                           const ReadValues<T>& read) {
+  const std::int64_t most = std::max(kBlockValues, array.components);
+  std::vector<T> buffer(static_cast<std::size_t>(std::min(array.size, most)));
+  std::uint64_t checksum = 0;
+  for_row_blocks(array.size, array.components, [&](std::int64_t row, std::int64_t rows) {
+    const std::span values =
+        std::span(buffer).first(static_cast<std::size_t>(rows * array.components));
+    read(row * array.components, values);
+    checksum = crc64(std::span<const T>(values), checksum);
+    const std::array<std::size_t, 2> start{static_cast<std::size_t>(row), 0};
+    const std::array<std::size_t, 2> extent{static_cast<std::size_t>(rows),
+                                            static_cast<std::size_t>(array.components)};
+    file.check(nc_put_vara(file.id(), variable, start.data(), extent.data(), values.data()),
+               "write the array '" + array.name + "'");
+  });
+  return checksum;
+}
+
+// Sets the checksums in the header, which are known when the values have been written; as texts of one
+// length they fit where they were defined.
+void write_contents(const std::string& path, ArchiveHeader& header, const ArchiveSource& archive) {
   NetcdfFile file = NetcdfFile::create(path);
   define_header(file, header);
   const auto put_header_checksum = [&](std::uint64_t checksum) {
@@ -182,17 +199,24 @@ void write_contents(const std::string& path, const ArchiveHeader& header, const 
     file.check(nc_put_var_longlong(file.id(), 0, &value), "write the checksum of the header");
   };
   put_header_checksum(0);
-  for (int i = 0; i < static_cast<int>(archive.arrays.size()); ++i) {
-    const NamedArray& array = archive.arrays[static_cast<std::size_t>(i)];
-    if (size_of(array.data) == 0) continue;
-    const auto put = [&](const auto& values) {
-      return nc_put_var(file.id(), i + 1, values.data());
-    };
-    file.check(std::visit(put, array.data), "write the array '" + array.name + "'");
+  for (std::size_t i = 0; i < archive.arrays.size(); ++i) {
+    const ArraySource& array = archive.arrays[i];
+    const int variable = static_cast<int>(i) + 1;
+    header.arrays[i].checksum = std::visit(
+        [&](const auto& read) { return write_values(file, variable, array, read); }, array.read);
+    file.put_text(variable, kChecksum, checksum_text(header.arrays[i].checksum));
   }
   file.check(nc_sync(file.id()), "write the file");
   put_header_checksum(checksum_of_beginning(path, read_netcdf_layout(path).header_bytes));
   file.close();
+}
+
+template <class T>
+ArraySource source_of(const NamedArray& array, const std::vector<T>& data) {
+  const ReadValues<T> read = [&data](std::int64_t first, std::span<T> values) {
+    std::copy_n(data.begin() + first, values.size(), values.begin());
+  };
+  return {array.name, array.units, array.description, array.components, std::ssize(data), read};
 }
 
 }  // namespace
@@ -212,8 +236,17 @@ const NamedArray* Archive::find_array(const std::string& name) const {
 }
 
 void write_archive(const std::string& path, const Archive& archive) {
+  ArchiveSource source{archive.attributes, {}};
+  for (const NamedArray& array : archive.arrays) {
+    source.arrays.push_back(
+        std::visit([&](const auto& data) { return source_of(array, data); }, array.data));
+  }
+  write_archive_in_blocks(path, source);
+}
+
+void write_archive_in_blocks(const std::string& path, const ArchiveSource& archive) {
   check_archive(path, archive);
-  const ArchiveHeader header = describe(archive);
+  ArchiveHeader header = describe(archive);
   NewFile file(path);
   write_contents(file.temporary_path(), header, archive);
   sync_file_and_drop_cache(file.temporary_path());

@@ -3,11 +3,12 @@
 // CDF-5, self-describing; every array carries units, a description and a checksum, and the variable
 // "header_checksum" covers everything else in the file. Written under a temporary name, flushed to
 // disk, read back and verified, renamed, directory flushed. The same archive gives the same bytes.
-// Every array here is in memory as a whole; results over time are results.hpp.
+// Arrays can be written and read one block or one array at a time; results over time are results.hpp.
 #pragma once
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <utility>
 #include <variant>
@@ -38,6 +39,23 @@ struct Archive {
   const NamedArray* find_array(const std::string& name) const;          // nullptr if absent
 };
 
+// Puts values first, first + 1, ... of an array into the span, which holds whole rows of components.
+template <class T>
+using ReadValues = std::function<void(std::int64_t first, std::span<T> values)>;
+
+// An array that is written in blocks and need not be in memory as a whole.
+struct ArraySource {
+  std::string name, units, description;  // as in NamedArray
+  std::int64_t components = 1;
+  std::int64_t size = 0;  // values, all components together
+  std::variant<ReadValues<double>, ReadValues<std::int64_t>> read;
+};
+
+struct ArchiveSource {
+  std::vector<Attribute> attributes;
+  std::vector<ArraySource> arrays;
+};
+
 // An archive without its data.
 struct ArrayInfo {
   std::string name, units, description;
@@ -60,6 +78,8 @@ struct ArchiveHeader {
 // Throws io::Error (disk full, no permission, ...); a file that was at `path` is untouched then.
 // A killed write leaves at most `path`.part, which the next write to `path` replaces.
 void write_archive(const std::string& path, const Archive& archive);
+// The same bytes from blocks: memory for one block, whatever the size. Every block is read once.
+void write_archive_in_blocks(const std::string& path, const ArchiveSource& archive);
 
 // Verifies every checksum; throws io::Error naming the file and the array that fails.
 Archive read_archive(const std::string& path);
@@ -73,6 +93,9 @@ using VerifyProgress = std::function<void(std::int64_t done, std::int64_t all)>;
 // fails is one message, and nothing else can be verified then. Throws io::Error if there is no file.
 std::vector<std::string> archive_damage(const std::string& path,
                                         const VerifyProgress& progress = {});
+
+// One array; the header and that array are verified. Throws io::Error if there is none of that name.
+NamedArray read_archive_array(const std::string& path, const std::string& name);
 
 // The header is verified, the arrays are neither read nor verified.
 ArchiveHeader read_archive_header(const std::string& path);

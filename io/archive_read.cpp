@@ -18,8 +18,6 @@ using namespace archive_format;
 
 namespace {
 
-constexpr std::int64_t kBlockValues = std::int64_t{1} << 17;  // read and checked at a time: 1 MiB
-
 [[noreturn]] void fail(const std::string& path, const std::string& what) {
   throw Error(path + ": " + what + "; this file cannot be used, take another one");
 }
@@ -113,7 +111,7 @@ ArrayInfo read_info(const NetcdfFile& file, const std::string& path, int variabl
   info.size = static_cast<std::int64_t>(lengths[0] * lengths[1]);
   info.units = file.text(variable, "units");
   info.description = file.text(variable, "long_name");
-  info.checksum = parse_checksum(path, info.name, file.text(variable, "checksum"));
+  info.checksum = parse_checksum(path, info.name, file.text(variable, kChecksum));
   return info;
 }
 
@@ -145,23 +143,21 @@ using BytesRead = std::function<void(std::int64_t)>;
 template <class T>
 void read_values(const NetcdfFile& file, const std::string& path, int variable,
                  const ArrayInfo& info, std::vector<T>* keep, const BytesRead& bytes_read = {}) {
-  const std::int64_t rows = info.size / info.components;
-  const std::int64_t block = std::max<std::int64_t>(1, kBlockValues / info.components);
-  std::vector<T> buffer(static_cast<std::size_t>(
-      keep != nullptr ? info.size : std::min(rows, block) * info.components));
+  const std::int64_t most = std::max(kBlockValues, info.components);
+  std::vector<T> buffer(
+      static_cast<std::size_t>(keep != nullptr ? info.size : std::min(info.size, most)));
   std::uint64_t checksum = 0;
-  for (std::int64_t row = 0; row < rows; row += block) {
-    const std::int64_t count = std::min(block, rows - row);
+  for_row_blocks(info.size, info.components, [&](std::int64_t row, std::int64_t rows) {
     T* target = buffer.data() + (keep != nullptr ? row * info.components : 0);
     const std::array<std::size_t, 2> start{static_cast<std::size_t>(row), 0};
-    const std::array<std::size_t, 2> extent{static_cast<std::size_t>(count),
+    const std::array<std::size_t, 2> extent{static_cast<std::size_t>(rows),
                                             static_cast<std::size_t>(info.components)};
     file.check(nc_get_vara(file.id(), variable, start.data(), extent.data(), target),
                "read the array '" + info.name + "'");
-    const auto values = static_cast<std::size_t>(count * info.components);
+    const auto values = static_cast<std::size_t>(rows * info.components);
     checksum = crc64(std::span<const T>(target, values), checksum);
     if (bytes_read) bytes_read(static_cast<std::int64_t>(values * sizeof(T)));
-  }
+  });
   if (checksum != info.checksum) {
     fail(path, "array '" + info.name + "' is damaged: its checksum is " + checksum_text(checksum) +
                    ", stored is " + checksum_text(info.checksum));
@@ -179,11 +175,17 @@ void verify_array(const NetcdfFile& file, const std::string& path, int variable,
 }
 
 template <class T>
-NamedArray read_array(const NetcdfFile& file, const std::string& path, int variable,
-                      const ArrayInfo& info) {
+NamedArray read_array_of(const NetcdfFile& file, const std::string& path, int variable,
+                         const ArrayInfo& info) {
   std::vector<T> values;
   read_values<T>(file, path, variable, info, &values);
   return {info.name, info.units, info.description, info.components, std::move(values)};
+}
+
+NamedArray read_array(const NetcdfFile& file, const std::string& path, int variable,
+                      const ArrayInfo& info) {
+  return info.is_integer ? read_array_of<std::int64_t>(file, path, variable, info)
+                         : read_array_of<double>(file, path, variable, info);
 }
 
 }  // namespace
@@ -209,11 +211,19 @@ Archive read_archive(const std::string& path) {
   Archive archive;
   archive.attributes = std::move(header.attributes);
   for (int i = 0; i < static_cast<int>(header.arrays.size()); ++i) {
-    const ArrayInfo& info = header.arrays[static_cast<std::size_t>(i)];
-    archive.arrays.push_back(info.is_integer ? read_array<std::int64_t>(file, path, i + 1, info)
-                                             : read_array<double>(file, path, i + 1, info));
+    archive.arrays.push_back(
+        read_array(file, path, i + 1, header.arrays[static_cast<std::size_t>(i)]));
   }
   return archive;
+}
+
+NamedArray read_archive_array(const std::string& path, const std::string& name) {
+  verify_header(path);
+  const NetcdfFile file = NetcdfFile::open(path);
+  const ArchiveHeader header = read_header(file, path);
+  const ArrayInfo* info = header.find_array(name);
+  if (info == nullptr) fail(path, "has no array '" + name + "'");
+  return read_array(file, path, 1 + static_cast<int>(info - header.arrays.data()), *info);
 }
 
 void verify_archive(const std::string& path) {

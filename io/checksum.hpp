@@ -16,6 +16,9 @@ namespace cleave::io {
 // The checksum of `bytes`, or of a longer sequence whose beginning gave `previous`.
 std::uint64_t crc64(std::span<const std::byte> bytes, std::uint64_t previous = 0);
 
+// The same by tables, on every machine: what crc64 falls back to.
+std::uint64_t crc64_by_tables(std::span<const std::byte> bytes, std::uint64_t previous = 0);
+
 // The checksum of the values' bytes, least significant byte first on every machine.
 std::uint64_t crc64(std::span<const double> values, std::uint64_t previous = 0);
 std::uint64_t crc64(std::span<const std::int64_t> values, std::uint64_t previous = 0);

@@ -143,15 +143,28 @@ void put_records(const ExodusFile& file, const ResultLayout& layout) {
   }
 }
 
+// Points and elements go through buffers of this many, not through a second copy of the mesh.
+constexpr std::int64_t kPiece = std::int64_t{1} << 16;
+
+// Calls visit(first, count) for pieces of `all`.
+template <class Visit>
+void for_pieces(std::int64_t all, Visit visit) {
+  for (std::int64_t first = 0; first < all; first += kPiece)
+    visit(first, std::min(kPiece, all - first));
+}
+
 void put_points(const ExodusFile& file, const ResultLayout& layout) {
-  const std::size_t n = layout.point_ids.size();
   std::array<std::vector<double>, 3> x;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    x[axis].resize(n);
-    for (std::size_t i = 0; i < n; ++i) x[axis][i] = layout.points[3 * i + axis];
-  }
-  const double* z = layout.dimension == 3 ? x[2].data() : nullptr;
-  file.check(ex_put_coord(file.id(), x[0].data(), x[1].data(), z), "write the points");
+  for_pieces(std::ssize(layout.point_ids), [&](std::int64_t first, std::int64_t count) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      x[axis].resize(static_cast<std::size_t>(count));
+      for (std::size_t i = 0; i < x[axis].size(); ++i)
+        x[axis][i] = layout.points[3 * (static_cast<std::size_t>(first) + i) + axis];
+    }
+    const double* z = layout.dimension == 3 ? x[2].data() : nullptr;
+    file.check(ex_put_partial_coord(file.id(), first + 1, count, x[0].data(), x[1].data(), z),
+               "write the points");
+  });
   std::vector<std::string> names{"x", "y", "z"};
   names.resize(static_cast<std::size_t>(layout.dimension));
   Texts axes(names);
@@ -182,14 +195,31 @@ void define_blocks_and_sets(const ExodusFile& file, const ResultLayout& layout) 
   }
 }
 
+// The library has no call for a part of the elements.
+void put_elements(const ExodusFile& file, const ResultBlock& block, const std::string& stored_as) {
+  const std::string operation = "write the elements of the block '" + block.name + "'";
+  int id = -1;
+  file.check_netcdf(nc_inq_varid(file.id(), stored_as.c_str(), &id), operation);
+  const auto width = static_cast<std::size_t>(corners(block));
+  std::vector<long long> nodes;
+  for_pieces(count(block), [&](std::int64_t first, std::int64_t elements) {
+    const auto begin = block.nodes.begin() + first * corners(block);
+    nodes.resize(static_cast<std::size_t>(elements) * width);
+    std::transform(begin, begin + std::ssize(nodes), nodes.begin(),
+                   [](std::int64_t node) { return node + 1; });
+    const std::array<std::size_t, 2> start{static_cast<std::size_t>(first), 0};
+    const std::array<std::size_t, 2> extent{static_cast<std::size_t>(elements), width};
+    file.check_netcdf(
+        nc_put_vara_longlong(file.id(), id, start.data(), extent.data(), nodes.data()), operation);
+  });
+}
+
 void put_blocks(const ExodusFile& file, const ResultLayout& layout) {
   if (layout.blocks.empty()) return;
   Texts names(names_of(layout.blocks));
   file.check(ex_put_names(file.id(), EX_ELEM_BLOCK, names.data()), "write the names of the blocks");
   for (std::size_t i = 0; i < layout.blocks.size(); ++i) {
-    const std::vector<std::int64_t> nodes = one_based(layout.blocks[i].nodes);
-    file.check(ex_put_conn(file.id(), EX_ELEM_BLOCK, entity(i), nodes.data(), nullptr, nullptr),
-               "write the elements of the block '" + layout.blocks[i].name + "'");
+    put_elements(file, layout.blocks[i], "connect" + std::to_string(i + 1));
   }
 }
 

@@ -299,10 +299,13 @@ Mesh read_exodus_mesh(const std::string& path, NetcdfForm form, std::size_t file
     read_netcdf_layout(path);  // refuses a truncated file
     return read(path, file_size);
   }
-  const Trial trial = try_in_child([&] { read(path, file_size); });
+  // A sound file takes 0.01 s a megabyte.
+  const unsigned long cpu_seconds = 60 + file_size / 1000000;
+  const Trial trial = try_in_child([&] { read(path, file_size); }, cpu_seconds);
   if (trial.crashed)
     throw Error(path +
-                ": a netCDF-4 file so damaged that the HDF5 library fails on it; write it again");
+                ": a netCDF-4 file so damaged that the HDF5 library fails on it or does not come "
+                "to an end; write it again");
   if (!trial.error.empty()) throw Error(trial.error);
   return read(path, file_size);
 }

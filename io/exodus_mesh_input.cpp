@@ -9,6 +9,17 @@
 #include "io/error.hpp"
 
 namespace cleave::io {
+namespace {
+
+// std::int64_t is one of the two, which one depends on the machine.
+[[maybe_unused]] int get_all(int file, int variable, long* values) {
+  return nc_get_var_long(file, variable, values);
+}
+[[maybe_unused]] int get_all(int file, int variable, long long* values) {
+  return nc_get_var_longlong(file, variable, values);
+}
+
+}  // namespace
 
 NetcdfInput::NetcdfInput(std::string path, std::size_t file_size)
     : path_(std::move(path)), file_size_(file_size) {
@@ -84,9 +95,9 @@ std::size_t NetcdfInput::checked_size(const std::string& variable) const {
 
 std::vector<std::int64_t> NetcdfInput::integers(const std::string& variable) const {
   const int id = require(variable);
-  std::vector<long long> values(checked_size(variable));
-  check(nc_get_var_longlong(id_, id, values.data()), variable);
-  return {values.begin(), values.end()};
+  std::vector<std::int64_t> values(checked_size(variable));
+  check(get_all(id_, id, values.data()), variable);
+  return values;
 }
 
 std::vector<double> NetcdfInput::reals(const std::string& variable) const {

@@ -17,10 +17,13 @@ namespace {
 constexpr int kFinished = 71;  // no exit status that a library or sanitizer would choose
 
 // The process may have handlers that belong to the parent's run.
-void become_silent() {
-  for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL}) std::signal(signal, SIG_DFL);
+void become_silent(unsigned long cpu_seconds) {
+  for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU})
+    std::signal(signal, SIG_DFL);
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
+  const rlimit cpu{cpu_seconds, cpu_seconds + 1};  // a child starts with none used
+  setrlimit(RLIMIT_CPU, &cpu);
   const int nowhere = open("/dev/null", O_WRONLY);
   dup2(nowhere, STDOUT_FILENO);
   dup2(nowhere, STDERR_FILENO);
@@ -44,8 +47,9 @@ std::string read_all(int pipe) {
   }
 }
 
-[[noreturn]] void run_child(const std::function<void()>& action, int pipe) {
-  become_silent();
+[[noreturn]] void run_child(const std::function<void()>& action, unsigned long cpu_seconds,
+                            int pipe) {
+  become_silent(cpu_seconds);
   try {
     action();
   } catch (const std::exception& error) {
@@ -56,11 +60,11 @@ std::string read_all(int pipe) {
 
 }  // namespace
 
-Trial try_in_child(const std::function<void()>& action) {
+Trial try_in_child(const std::function<void()>& action, unsigned long cpu_seconds) {
   std::array<int, 2> ends{};
   if (pipe(ends.data()) != 0) return {};
   const pid_t child = fork();
-  if (child == 0) run_child(action, ends[1]);
+  if (child == 0) run_child(action, cpu_seconds, ends[1]);
   close(ends[1]);
   Trial trial;
   if (child > 0) {

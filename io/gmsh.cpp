@@ -1,6 +1,7 @@
 // Gmsh mesh files: header, sections, physical names, element types.
 #include "io/gmsh.hpp"
 
+#include <algorithm>
 #include <array>
 #include <limits>
 
@@ -151,6 +152,13 @@ MeshBuilder::Group physical_group(File& file, int dimension, std::int64_t tag) {
 std::int64_t checked_node_number(const File& file, std::int64_t number) {
   if (number < 0) file.bytes.fail("a node number must not be negative: " + std::to_string(number));
   return number;
+}
+
+void expect_elements(File& file, const ElementType& type, std::int64_t count) {
+  if (!type.is_simplex || type.dimension == 0) return;
+  const std::int64_t least = (file.bytes.binary() ? 4 : 2) * (type.nodes + 1);  // bytes of one
+  const auto most = static_cast<std::int64_t>(file.bytes.remaining()) / least;
+  file.builder.expect_cells(static_cast<CellKind>(type.nodes), std::min(count, most));
 }
 
 std::int64_t read_element(File& file, const ElementType& type, std::int64_t element_number) {

@@ -46,6 +46,8 @@ MeshBuilder::Group physical_group(File& file, int dimension, std::int64_t tag);
 // Reads node numbers until the element is complete and adds it. Returns its index in its block, the
 // index of the node for a point element, or -1 if its kind is skipped.
 std::int64_t read_element(File& file, const ElementType& type, std::int64_t element_number);
+// Makes room for elements that are announced, as far as the rest of the file can hold them.
+void expect_elements(File& file, const ElementType& type, std::int64_t count);
 void add_to_group(File& file, MeshBuilder::Group group, const ElementType& type,
                   std::int64_t index);
 // Reads a node number and checks its sign.

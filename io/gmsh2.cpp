@@ -48,6 +48,7 @@ std::int64_t read_binary_run(File& file, GroupCache& groups, std::int64_t left) 
                std::to_string(left) + " are left");
   const std::int64_t tags = bytes.integer();
   bytes.check_count(tags, sizeof(std::int32_t), "tags");
+  expect_elements(file, type, run);
   for (std::int64_t i = 0; i < run; ++i) {
     const std::int64_t number = bytes.integer();
     read_element_2(file, groups, type, tags, number);

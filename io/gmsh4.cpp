@@ -85,6 +85,7 @@ std::int64_t read_element_block(File& file, std::int64_t left) {
   if (physicals != file.entity_physicals.end())
     for (const std::int64_t tag : physicals->second)
       groups.push_back(physical_group(file, dimension, tag));
+  expect_elements(file, type, count);
   for (std::int64_t i = 0; i < count; ++i) {
     const std::int64_t number = bytes.size();
     const std::int64_t index = read_element(file, type, number);

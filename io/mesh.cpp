@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <string_view>
 #include <system_error>
 
@@ -14,7 +15,14 @@
 namespace cleave::io {
 namespace {
 
-std::string read_file(const std::string& path) {
+// A file in memory. Not a string, which would be filled with zeros first.
+struct Content {
+  std::unique_ptr<char[]> bytes;
+  std::size_t size = 0;
+  std::string_view text() const { return {bytes.get(), size}; }
+};
+
+Content read_file(const std::string& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status))
@@ -23,10 +31,10 @@ std::string read_file(const std::string& path) {
   const auto size = std::filesystem::file_size(path, error);
   std::ifstream stream(path, std::ios::binary);
   if (error || !stream) throw Error(path + ": the mesh file cannot be opened for reading");
-  std::string data(size, '\0');
-  stream.read(data.data(), static_cast<std::streamsize>(size));
-  data.resize(static_cast<std::size_t>(stream.gcount()));
-  return data;
+  Content content{std::make_unique_for_overwrite<char[]>(size), 0};
+  stream.read(content.bytes.get(), static_cast<std::streamsize>(size));
+  content.size = static_cast<std::size_t>(stream.gcount());
+  return content;
 }
 
 [[noreturn]] void fail_unknown(const std::string& path, bool is_empty) {
@@ -71,9 +79,14 @@ std::string Mesh::skipped_summary() const {
 }
 
 Mesh read_mesh(const std::string& path) {
-  const std::string data = read_file(path);
-  if (data.starts_with("CDF")) return read_exodus_mesh(path, NetcdfForm::classic, data.size());
-  if (data.starts_with("\211HDF")) return read_exodus_mesh(path, NetcdfForm::hdf5, data.size());
+  Content content = read_file(path);
+  const std::string_view data = content.text();
+  const auto read_netcdf = [&](NetcdfForm form) {
+    content.bytes.reset();  // the library reads the file itself
+    return read_exodus_mesh(path, form, content.size);
+  };
+  if (data.starts_with("CDF")) return read_netcdf(NetcdfForm::classic);
+  if (data.starts_with("\211HDF")) return read_netcdf(NetcdfForm::hdf5);
   const std::size_t text = data.find_first_not_of(" \t\r\n");
   if (text == std::string::npos || data[text] != '$') fail_unknown(path, data.empty());
   return gmsh::read(path, data);

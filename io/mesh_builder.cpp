@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <limits>
 #include <numeric>
+
+#include "io/error.hpp"
 
 namespace cleave::io {
 namespace {
@@ -31,48 +34,107 @@ void sort_unique(std::vector<std::int64_t>& values) {
   values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
-// The same for values in 0..limit, in linear time if there are many.
+// Sorted and unique, of values in 0..limit, by marks: linear, and a bit for each possible value.
+class Marks {
+ public:
+  explicit Marks(std::int64_t limit) : marked_(static_cast<std::size_t>(limit), false) {}
+  void set(std::int64_t value) {
+    auto mark = marked_[static_cast<std::size_t>(value)];
+    count_ += mark ? 0 : 1;
+    mark = true;
+  }
+  std::vector<std::int64_t> values() const {
+    std::vector<std::int64_t> values;
+    values.reserve(count_);
+    for (std::size_t value = 0; value < marked_.size(); ++value)
+      if (marked_[value]) values.push_back(static_cast<std::int64_t>(value));
+    return values;
+  }
+
+ private:
+  std::vector<bool> marked_;
+  std::size_t count_ = 0;
+};
+
+constexpr std::int64_t kMany = 32;  // marking costs a bit a possible value
+
 void sort_unique(std::vector<std::int64_t>& values, std::int64_t limit) {
-  constexpr std::int64_t kMany = 32;  // marking costs a bit a possible value
-  if (static_cast<std::int64_t>(values.size()) < limit / kMany) return sort_unique(values);
-  std::vector<bool> present(static_cast<std::size_t>(limit), false);
-  for (const std::int64_t value : values) present[static_cast<std::size_t>(value)] = true;
-  values.clear();
-  for (std::int64_t value = 0; value < limit; ++value)
-    if (present[static_cast<std::size_t>(value)]) values.push_back(value);
+  if (std::ssize(values) < limit / kMany) return sort_unique(values);
+  Marks marks(limit);
+  for (const std::int64_t value : values) marks.set(value);
+  values = marks.values();
 }
 
-// For every cell the first cell with the same corners. Only cells that share their smallest corner
-// are compared.
-std::vector<std::int64_t> first_equals(const CellBlock& block, std::int64_t point_count) {
-  const auto corners = static_cast<std::int64_t>(block.kind);
-  const std::int64_t cells = block.count();
-  if (cells == 0) return {};
-  const auto smallest_corner = [&](std::int64_t cell) {
-    const auto begin = block.nodes.begin() + cell * corners;
-    return static_cast<std::size_t>(*std::min_element(begin, begin + corners));
+// Sorted and unique: the given nodes and the corners of the cells.
+std::vector<std::int64_t> nodes_of(std::vector<std::int64_t> nodes, const CellBlock& block,
+                                   std::span<const std::int64_t> cells, std::int64_t point_count) {
+  const auto corners = static_cast<std::ptrdiff_t>(block.kind);
+  const auto for_corners = [&](auto visit) {
+    for (const std::int64_t cell : cells)
+      for (auto corner = cell * corners; corner < (cell + 1) * corners; ++corner)
+        visit(block.nodes[static_cast<std::size_t>(corner)]);
   };
+  if (std::ssize(cells) * corners < point_count / kMany) {
+    for_corners([&](std::int64_t node) { nodes.push_back(node); });
+    sort_unique(nodes, point_count);
+    return nodes;
+  }
+  Marks marks(point_count);
+  for (const std::int64_t node : nodes) marks.set(node);
+  for_corners([&](std::int64_t node) { marks.set(node); });
+  return marks.values();
+}
 
-  std::vector<std::int64_t> bucket(static_cast<std::size_t>(point_count) + 1, 0);
-  for (std::int64_t cell = 0; cell < cells; ++cell) ++bucket[smallest_corner(cell)];
-  std::exclusive_scan(bucket.begin(), bucket.end(), bucket.begin(), std::int64_t{0});
-  std::vector<std::int64_t> order(static_cast<std::size_t>(cells));
-  for (std::int64_t cell = 0; cell < cells; ++cell)
-    order[static_cast<std::size_t>(bucket[smallest_corner(cell)]++)] = cell;
+std::int64_t smallest_corner(const CellBlock& block, std::int64_t cell) {
+  const auto corners = static_cast<std::int64_t>(block.kind);
+  const auto begin = block.nodes.begin() + cell * corners;
+  return *std::min_element(begin, begin + corners);
+}
 
-  std::vector<std::int64_t> equal(static_cast<std::size_t>(cells));
+// Cells by their smallest corner: those of node n are cell[begin[n]] to cell[begin[n + 1]], in order.
+struct Buckets {
+  std::vector<std::uint32_t> begin, cell;
+};
+
+Buckets by_smallest_corner(const CellBlock& block, std::int64_t point_count) {
+  Buckets buckets;
+  const std::int64_t cells = block.count();
+  if (cells >= std::numeric_limits<std::uint32_t>::max())
+    throw Error("a mesh of " + std::to_string(cells) +
+                " cells of one kind; at most 4294967294 can be read; divide it");
+  buckets.begin.assign(static_cast<std::size_t>(point_count) + 1, 0);
+  buckets.cell.resize(static_cast<std::size_t>(cells));
+  const auto end_of = [&](std::int64_t cell) -> std::uint32_t& {
+    return buckets.begin[static_cast<std::size_t>(smallest_corner(block, cell))];
+  };
+  for (std::int64_t cell = 0; cell < cells; ++cell) ++end_of(cell);
+  std::inclusive_scan(buckets.begin.begin(), buckets.begin.end(), buckets.begin.begin());
+  for (std::int64_t cell = cells; cell-- > 0;)  // from the back: the ends become beginnings
+    buckets.cell[--end_of(cell)] = static_cast<std::uint32_t>(cell);
+  return buckets;
+}
+
+// For every cell the first cell with the same corners; empty if no cell occurs twice. Only cells that
+// share their smallest corner are compared.
+std::vector<std::int64_t> first_equals(const CellBlock& block, std::int64_t point_count) {
+  std::vector<std::int64_t> equal;
+  const Buckets buckets = by_smallest_corner(block, point_count);
   std::vector<std::pair<Corners, std::int64_t>> keys;
-  std::int64_t begin = 0;  // after filling, bucket[n] is the end of bucket n
-  for (std::size_t node = 0; node < static_cast<std::size_t>(point_count); ++node) {
+  for (std::size_t node = 0; node + 1 < buckets.begin.size(); ++node) {
     keys.clear();
-    for (; begin < bucket[node]; ++begin) {
-      const std::int64_t cell = order[static_cast<std::size_t>(begin)];
-      keys.emplace_back(sorted_corners(block, cell), cell);
-    }
+    for (std::size_t k = buckets.begin[node]; k < buckets.begin[node + 1]; ++k)
+      keys.emplace_back(sorted_corners(block, buckets.cell[k]), buckets.cell[k]);
     std::sort(keys.begin(), keys.end());
     std::size_t first = 0;
-    for (std::size_t i = 0; i < keys.size(); ++i) {
-      if (keys[i].first != keys[first].first) first = i;
+    for (std::size_t i = 1; i < keys.size(); ++i) {
+      if (keys[i].first != keys[first].first) {
+        first = i;
+        continue;
+      }
+      if (equal.empty()) {
+        equal.resize(buckets.cell.size());
+        std::iota(equal.begin(), equal.end(), std::int64_t{0});
+      }
       equal[static_cast<std::size_t>(keys[i].second)] = keys[first].second;
     }
   }
@@ -125,6 +187,7 @@ std::int64_t NodeNumbers::lookup(std::int64_t id) const {
 
 std::vector<std::int64_t> remove_repeated_cells(CellBlock& block, std::int64_t point_count) {
   std::vector<std::int64_t> index = first_equals(block, point_count);
+  if (index.empty()) return {};
   const auto corners = static_cast<std::size_t>(block.kind);
   std::size_t kept = 0;
   for (std::size_t cell = 0; cell < index.size(); ++cell) {
@@ -137,9 +200,16 @@ std::vector<std::int64_t> remove_repeated_cells(CellBlock& block, std::int64_t p
                 block.nodes.begin() + static_cast<std::ptrdiff_t>(kept * corners));
     index[cell] = static_cast<std::int64_t>(kept++);
   }
-  if (kept == index.size()) return {};
   block.nodes.resize(kept * corners);
   return index;
+}
+
+void MeshBuilder::expect_cells(CellKind kind, std::int64_t count) {
+  std::vector<std::int64_t>& nodes = block(kind).nodes;
+  const std::size_t wanted =
+      nodes.size() + static_cast<std::size_t>(count * static_cast<std::int64_t>(kind));
+  // Not less than doubled: there may be many small blocks.
+  if (wanted > nodes.capacity()) nodes.reserve(std::max(wanted, 2 * nodes.capacity()));
 }
 
 CellBlock& MeshBuilder::block(CellKind kind) {
@@ -168,18 +238,19 @@ MeshGroup MeshBuilder::finish_group(const std::string& name, int dimension, Memb
   if (dimension > 0) {
     const std::vector<std::int64_t>& renumbered =
         new_index[static_cast<std::size_t>(dimension) - 1];
+    std::int64_t count = 0;
+    for (const auto& [first, last] : members.ranges) count += last - first;
+    result.cells.reserve(static_cast<std::size_t>(count));
     for (const auto& [first, last] : members.ranges)
       for (std::int64_t cell = first; cell < last; ++cell)
         result.cells.push_back(renumbered.empty() ? cell
                                                   : renumbered[static_cast<std::size_t>(cell)]);
     sort_unique(result.cells);
     const CellBlock& cells = block(static_cast<CellKind>(dimension + 1));
-    const auto corners = static_cast<std::ptrdiff_t>(cells.kind);
-    for (const std::int64_t cell : result.cells)
-      result.nodes.insert(result.nodes.end(), cells.nodes.begin() + cell * corners,
-                          cells.nodes.begin() + (cell + 1) * corners);
+    result.nodes = nodes_of(std::move(result.nodes), cells, result.cells, mesh_.point_count());
+  } else {
+    sort_unique(result.nodes, mesh_.point_count());
   }
-  sort_unique(result.nodes, mesh_.point_count());
   return result;
 }
 

@@ -42,6 +42,8 @@ class MeshBuilder {
   std::vector<double>& points() { return mesh_.points; }
   std::vector<std::int64_t>& point_ids() { return mesh_.point_ids; }
   CellBlock& block(CellKind kind);
+  // Makes room for cells that are about to follow.
+  void expect_cells(CellKind kind, std::int64_t count);
 
   // The group of that name and dimension, made if there is none yet.
   Group group(const std::string& name, int dimension);

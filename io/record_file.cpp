@@ -24,6 +24,10 @@ void put_big_endian(std::uint64_t value, int bytes, char* target) {
   }
 }
 
+std::uint64_t big_endian(std::uint64_t value) {
+  return std::endian::native == std::endian::big ? value : __builtin_bswap64(value);
+}
+
 }  // namespace
 
 RecordFile::RecordFile(const std::string& path, const NetcdfLayout& layout)
@@ -49,25 +53,24 @@ void RecordFile::write_bytes(std::int64_t place, std::span<const char> bytes) {
   }
 }
 
-void RecordFile::write(std::int64_t place, std::span<const std::uint64_t> values) {
-  std::vector<char> bytes(8 * std::min(values.size(), kBlock));
+template <class T>
+void RecordFile::write_words(std::int64_t place, std::span<const T> values) {
+  words_.resize(std::max(words_.size(), std::min(values.size(), kBlock)));
   for (std::size_t first = 0; first < values.size(); first += kBlock) {
-    const std::size_t count = std::min(kBlock, values.size() - first);
-    for (std::size_t i = 0; i < count; ++i) put_big_endian(values[first + i], 8, &bytes[8 * i]);
-    write_bytes(place + static_cast<std::int64_t>(8 * first), std::span(bytes).first(8 * count));
+    const std::span<const T> part = values.subspan(first, std::min(kBlock, values.size() - first));
+    std::transform(part.begin(), part.end(), words_.begin(),
+                   [](T value) { return big_endian(std::bit_cast<std::uint64_t>(value)); });
+    const auto* bytes = reinterpret_cast<const char*>(words_.data());
+    write_bytes(place + static_cast<std::int64_t>(8 * first), std::span(bytes, 8 * part.size()));
   }
 }
 
+void RecordFile::write(std::int64_t place, std::span<const std::uint64_t> values) {
+  write_words(place, values);
+}
+
 void RecordFile::write(std::int64_t place, std::span<const double> values) {
-  std::vector<std::uint64_t> bits(std::min(values.size(), kBlock));
-  for (std::size_t first = 0; first < values.size(); first += kBlock) {
-    const std::size_t count = std::min(kBlock, values.size() - first);
-    for (std::size_t i = 0; i < count; ++i) {
-      bits[i] = std::bit_cast<std::uint64_t>(values[first + i]);
-    }
-    write(place + static_cast<std::int64_t>(8 * first),
-          std::span<const std::uint64_t>(bits).first(count));
-  }
+  write_words(place, values);
 }
 
 void RecordFile::set_length(std::int64_t records) {

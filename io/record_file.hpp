@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "io/netcdf_layout.hpp"
 
@@ -29,12 +30,15 @@ class RecordFile {
   void close();
 
  private:
+  template <class T>
+  void write_words(std::int64_t place, std::span<const T> values);
   void write_bytes(std::int64_t place, std::span<const char> bytes);
 
   std::string path_;
   int version_;
   std::int64_t record_begin_, record_bytes_;
   int fd_;
+  std::vector<std::uint64_t> words_;  // on their way to the file
 };
 
 }  // namespace cleave::io

@@ -49,9 +49,6 @@ struct ResultsWriter::Impl {
   void check_same(const ResultSummary& file) const;
   void check_values(const std::string& what, const std::vector<std::string>& names,
                     std::span<const std::vector<double>> values, std::int64_t count) const;
-  void append(double time, std::span<const std::vector<double>> nodal_values,
-              std::span<const std::vector<double>> element_values,
-              std::span<const double> global_values) const;
 };
 
 void ResultsWriter::Impl::check_same(const ResultSummary& file) const {
@@ -93,53 +90,107 @@ void ResultsWriter::Impl::check_values(const std::string& what,
   }
 }
 
-// The names are those of the Exodus II format. The library's own calls would count the frame before it is
-// written, and a kill would leave a frame without values.
-void ResultsWriter::Impl::append(double time, std::span<const std::vector<double>> nodal_values,
-                                 std::span<const std::vector<double>> element_values,
-                                 std::span<const double> global_values) const {
-  const NetcdfLayout layout = read_netcdf_layout(path);
-  RecordFile file(path, layout);
-  const auto put = [&](const std::string& stored_as, std::int64_t count, const double* values) {
+// Where the values go. The names are those of the Exodus II format. The library's own calls would count the
+// frame before it is written, and a kill would leave a frame without values.
+struct ResultsWriter::Frame::State {
+  explicit State(Impl& results)
+      : writer(results), layout(read_netcdf_layout(results.path)), file(results.path, layout) {}
+
+  Impl& writer;
+  NetcdfLayout layout;
+  RecordFile file;
+  std::int64_t missing = 0;  // values of points and elements that are not put yet
+  bool finished = false;
+
+  // Values first, first + 1, ... of the `count` of a variable.
+  void put(const std::string& stored_as, std::int64_t count, std::int64_t first,
+           std::span<const double> values) {
     const NetcdfLayout::Variable* variable = layout.find(stored_as);
     if (variable == nullptr || !variable->is_record || variable->bytes != 8 * count) {
-      throw Error(path + ": has no '" + stored_as + "' of " + std::to_string(count) +
+      throw Error(writer.path + ": has no '" + stored_as + "' of " + std::to_string(count) +
                   " values; the file was changed while the run wrote it");
     }
-    file.write(layout.place(*variable, frames),
-               std::span<const double>(values, static_cast<std::size_t>(count)));
-  };
-  put("time_whole", 1, &time);
-  if (!global.empty()) put("vals_glo_var", std::ssize(global), global_values.data());
-  for (std::size_t v = 0; v < nodal.size(); ++v) {
-    put("vals_nod_var" + std::to_string(v + 1), points, nodal_values[v].data());
+    file.write(layout.place(*variable, writer.frames) + 8 * first, values);
   }
-  for (std::size_t v = 0; v < element.size(); ++v) {
-    const double* values = element_values[v].data();
-    for (std::size_t b = 0; b < block_elements.size(); ++b) {
-      put("vals_elem_var" + std::to_string(v + 1) + "eb" + std::to_string(b + 1), block_elements[b],
-          values);
-      values += block_elements[b];
+
+  void check_piece(const std::string& what, const std::vector<std::string>& names,
+                   std::size_t variable, std::int64_t first, std::int64_t last,
+                   std::int64_t count) const {
+    if (variable >= names.size() || first < 0 || last > count) {
+      throw Error(writer.path + ": a frame has no " + what + " values " + std::to_string(first) +
+                  " to " + std::to_string(last) + " of variable " + std::to_string(variable) +
+                  "; the file has " + std::to_string(names.size()) + " variables of " +
+                  std::to_string(count) + " values");
     }
   }
-  file.set_length(frames + 1);
-  file.set_records(frames + 1);
-  file.close();
+};
+
+ResultsWriter::Frame::Frame(std::unique_ptr<State> state) : state_(std::move(state)) {}
+
+ResultsWriter::Frame::Frame(Frame&&) noexcept = default;
+
+ResultsWriter::Frame::~Frame() {
+  if (state_ == nullptr || state_->finished) return;
+  try {
+    truncate_records(state_->writer.path, state_->writer.frames);
+  } catch (const Error&) {  // the error that ended the frame is the one to report
+  }
 }
 
-ResultsWriter ResultsWriter::create(const std::string& path, const ResultLayout& layout) {
+void ResultsWriter::Frame::put_nodal(std::size_t variable, std::int64_t first,
+                                     std::span<const double> values) {
+  State& s = *state_;
+  s.check_piece("nodal", s.writer.nodal, variable, first, first + std::ssize(values),
+                s.writer.points);
+  s.put("vals_nod_var" + std::to_string(variable + 1), s.writer.points, first, values);
+  s.missing -= std::ssize(values);
+}
+
+void ResultsWriter::Frame::put_element(std::size_t variable, std::int64_t first,
+                                       std::span<const double> values) {
+  State& s = *state_;
+  const std::int64_t last = first + std::ssize(values);
+  s.check_piece("element", s.writer.element, variable, first, last, s.writer.elements);
+  std::int64_t begin = 0;  // of the block
+  for (std::size_t b = 0; b < s.writer.block_elements.size(); ++b) {
+    const std::int64_t count = s.writer.block_elements[b];
+    const std::int64_t from = std::max(first, begin), to = std::min(last, begin + count);
+    if (from < to) {
+      s.put("vals_elem_var" + std::to_string(variable + 1) + "eb" + std::to_string(b + 1), count,
+            from - begin,
+            values.subspan(static_cast<std::size_t>(from - first),
+                           static_cast<std::size_t>(to - from)));
+    }
+    begin += count;
+  }
+  s.missing -= std::ssize(values);
+}
+
+void ResultsWriter::Frame::finish() {
+  State& s = *state_;
+  if (s.missing != 0) {
+    throw Error(s.writer.path + ": a frame lacks " + std::to_string(s.missing) + " values");
+  }
+  s.file.set_length(s.writer.frames + 1);
+  s.file.set_records(s.writer.frames + 1);
+  s.file.close();
+  s.finished = true;
+  ++s.writer.frames;
+}
+
+ResultsWriter ResultsWriter::create(const std::string& path, ResultLayout layout) {
   check_layout(path, layout);
-  const ResultLayout stored = without_empty_parts(layout);
+  const ResultLayout stored = without_empty_parts(std::move(layout));
   NewFile file(path);
   write_exodus_definition(file.temporary_path(), stored);
   file.commit();
   return ResultsWriter(std::make_unique<Impl>(path, stored));
 }
 
-ResultsWriter ResultsWriter::reopen(const std::string& path, const ResultLayout& layout,
+ResultsWriter ResultsWriter::reopen(const std::string& path, ResultLayout layout,
                                     std::int64_t frames) {
   check_layout(path, layout);
-  auto impl = std::make_unique<Impl>(path, without_empty_parts(layout));
+  auto impl = std::make_unique<Impl>(path, without_empty_parts(std::move(layout)));
   impl->check_same(summarise_results(path));
   truncate_records(path, frames);
   impl->frames = frames;
@@ -151,26 +202,30 @@ ResultsWriter::ResultsWriter(ResultsWriter&&) noexcept = default;
 ResultsWriter& ResultsWriter::operator=(ResultsWriter&&) noexcept = default;
 ResultsWriter::~ResultsWriter() = default;
 
+ResultsWriter::Frame ResultsWriter::begin_frame(double time, std::span<const double> global) {
+  Impl& writer = *impl_;
+  if (global.size() != writer.global.size()) {
+    throw Error(writer.path + ": a frame has " + std::to_string(global.size()) +
+                " global values, the file has " + std::to_string(writer.global.size()));
+  }
+  auto state = std::make_unique<Frame::State>(writer);
+  state->missing =
+      std::ssize(writer.nodal) * writer.points + std::ssize(writer.element) * writer.elements;
+  Frame frame(std::move(state));
+  frame.state_->put("time_whole", 1, 0, std::span(&time, 1));
+  if (!global.empty()) frame.state_->put("vals_glo_var", std::ssize(global), 0, global);
+  return frame;
+}
+
 void ResultsWriter::write_frame(double time, std::span<const std::vector<double>> nodal,
                                 std::span<const std::vector<double>> element,
                                 std::span<const double> global) {
-  Impl& file = *impl_;
-  file.check_values("nodal", file.nodal, nodal, file.points);
-  file.check_values("element", file.element, element, file.elements);
-  if (global.size() != file.global.size()) {
-    throw Error(file.path + ": a frame has " + std::to_string(global.size()) +
-                " global values, the file has " + std::to_string(file.global.size()));
-  }
-  try {
-    file.append(time, nodal, element, global);
-  } catch (const Error&) {
-    try {
-      truncate_records(file.path, file.frames);
-    } catch (const Error&) {  // the first error is the one to report
-    }
-    throw;
-  }
-  ++file.frames;
+  impl_->check_values("nodal", impl_->nodal, nodal, impl_->points);
+  impl_->check_values("element", impl_->element, element, impl_->elements);
+  Frame frame = begin_frame(time, global);
+  for (std::size_t v = 0; v < nodal.size(); ++v) frame.put_nodal(v, 0, nodal[v]);
+  for (std::size_t v = 0; v < element.size(); ++v) frame.put_element(v, 0, element[v]);
+  frame.finish();
 }
 
 void ResultsWriter::sync() { sync_file(impl_->path); }

@@ -45,18 +45,37 @@ class ResultsWriter {
  public:
   // Makes a new file; an old one is replaced once the new one is complete up to its first frame.
   // Throws io::Error.
-  static ResultsWriter create(const std::string& path, const ResultLayout& layout);
+  static ResultsWriter create(const std::string& path, ResultLayout layout);
   // Keeps the first `frames` frames and continues after them: the bytes are those of a file never longer.
   // Throws io::Error if there are fewer, or if sizes or variables differ from the layout's.
-  static ResultsWriter reopen(const std::string& path, const ResultLayout& layout,
-                              std::int64_t frames);
+  static ResultsWriter reopen(const std::string& path, ResultLayout layout, std::int64_t frames);
   ResultsWriter(ResultsWriter&&) noexcept;
   ResultsWriter& operator=(ResultsWriter&&) noexcept;
   ~ResultsWriter();
 
-  // nodal[v] is (n points), element[v] is (n elements of all blocks in order), global (n globals).
-  // Afterwards readers see the frame and a kill of the process does not lose it. If it throws (disk
-  // full), the file ends with the frame before and the call can be repeated.
+  // A frame on its way into the file, so that its values need not be in memory together. Every value
+  // of every variable is put once, in pieces of any size and order; then finish(), after which
+  // readers see the frame and a kill of the process does not lose it. A frame that goes away before
+  // (disk full, ...) leaves the file as it was, and another can be begun.
+  class Frame {
+   public:
+    ~Frame();
+    Frame(Frame&&) noexcept;
+    // Of points first, first + 1, ...
+    void put_nodal(std::size_t variable, std::int64_t first, std::span<const double> values);
+    // Of elements first, first + 1, ... of all blocks in order.
+    void put_element(std::size_t variable, std::int64_t first, std::span<const double> values);
+    void finish();
+
+   private:
+    friend class ResultsWriter;
+    struct State;
+    explicit Frame(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+  };
+  Frame begin_frame(double time, std::span<const double> global);
+  // A frame whose values are in memory: nodal[v] is (n points), element[v] is (n elements of all
+  // blocks in order), global (n globals).
   void write_frame(double time, std::span<const std::vector<double>> nodal,
                    std::span<const std::vector<double>> element, std::span<const double> global);
   // Waits for the disk: the frames survive a loss of power. Call it before a checkpoint that counts

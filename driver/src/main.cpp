@@ -13,7 +13,6 @@
 #include "command/keys.hpp"
 #include "command/tables.hpp"
 #include "command/verify.hpp"
-#include "command/waiting_threads.hpp"
 #include "deck/nearest_name.hpp"
 #include "io/error.hpp"
 #include "io/namelist.hpp"
@@ -314,7 +313,6 @@ int report(int code, const std::string& message) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  let_waiting_threads_sleep(argv);
   try {
     return run_command_line(argc, argv);
   } catch (const DeckError& error) {

@@ -118,6 +118,7 @@ TEST_F(Arguments, NumbersOutsideTheirRangeAreRefused) {
         [&] { return cleave_ramp(1, 1, nan, 0, &real, nullptr, nullptr); }},
        {"cleave_model_set_threads", "threads is 0",
         [&] { return cleave_model_set_threads(fresh, 0); }},
+       {"cleave_model_set_order", "order is 3", [&] { return cleave_model_set_order(fresh, 3); }},
        {"cleave_body_set_real", "allowed: > 0",
         [&] { return cleave_body_set_real(fresh, 0, "material", "E", 0); }},
        {"cleave_body_set_real", "> -1 and < 0.5",

@@ -1,4 +1,4 @@
-// Array calls are the model's kernels: the same bits, also from several threads on disjoint ranges.
+// Array calls are the model's kernels: the same bits in its order CLEAVE_ORDER_ROWS, also from several threads on disjoint ranges.
 #include <cmath>
 #include <limits>
 #include <thread>
@@ -22,6 +22,7 @@ TEST_P(ArrayCalls, HaveTheBitsOfTheModelAfterBreaking) {
   const SimplexMesh m = mesh();
   const double beta = 0.3, length = 0.01;
   Model model;
+  ok(cleave_model_set_order(model, CLEAVE_ORDER_ROWS));
   model.add(plate(), m,
             {{"fracture", "critical_strain", 0.02},
              {"viscosity", "beta", beta},

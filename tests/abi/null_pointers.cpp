@@ -122,6 +122,7 @@ TEST_F(Arguments, NullModelIsRefusedEverywhere) {
   cleave_model* none = nullptr;
   std::vector<Call> calls = {
       {"cleave_model_set_threads", "", [&] { return cleave_model_set_threads(none, 1); }},
+      {"cleave_model_set_order", "", [&] { return cleave_model_set_order(none, 1); }},
       {"cleave_body_add", "", [&] { return cleave_body_add(none, &spec, &i64); }},
       {"cleave_body_set_real", "",
        [&] { return cleave_body_set_real(none, 0, "material", "E", 1); }},
@@ -135,6 +136,7 @@ TEST_F(Arguments, NullModelIsRefusedEverywhere) {
       {"cleave_model_setup", "", [&] { return cleave_model_setup(none); }},
       {"cleave_body_precrack", "", [&] { return cleave_body_precrack(none, 0, 0, &i64); }},
       {"cleave_model_stable_step", "", [&] { return cleave_model_stable_step(none, &real); }},
+      {"cleave_model_is_stable", "", [&] { return cleave_model_is_stable(none, 1, &i32); }},
       {"cleave_body_wave_speed", "", [&] { return cleave_body_wave_speed(none, 0, &real); }},
       {"cleave_body_motion", "", [&] { return cleave_body_motion(none, 0, 0, nullptr, nullptr); }},
       {"cleave_model_initialise", "", [&] { return cleave_model_initialise(none, 0); }},
@@ -211,6 +213,8 @@ TEST_F(Arguments, NullIsRefusedForEveryOtherPointerOfTheModel) {
         [&] { return cleave_body_exempt(fresh, 0, 1, nullptr); }},
        {"cleave_body_precrack", "'pairs'",
         [&] { return cleave_body_precrack(ready, 0, 1, nullptr); }},
+       {"cleave_model_is_stable", "'stable'",
+        [&] { return cleave_model_is_stable(ready, 1, nullptr); }},
        {"cleave_model_stable_step", "'step'",
         [&] { return cleave_model_stable_step(ready, nullptr); }},
        {"cleave_body_wave_speed", "'speed'",

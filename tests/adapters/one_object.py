@@ -22,7 +22,7 @@ def main(compiler, folder, adapter, module, library):
     with open(host, "w", encoding="ascii") as file:
         file.write(HOST)
     run("ld", "-r", "-o", one, "--whole-archive", adapter, "--no-whole-archive", module, library)
-    run(compiler, "-shared", "-fPIC", "-Wl,-z,defs", "-o", plugin, one, host, "-lstdc++", "-lgomp", "-lm")
+    run(compiler, "-shared", "-fPIC", "-Wl,-z,defs", "-o", plugin, one, host, "-lstdc++", "-lm")
     shown = {line.split()[-1] for line in run("nm", "-D", "--defined-only", plugin).splitlines()}
     missing = {"vumat_", "umat_"} - shown
     if missing:

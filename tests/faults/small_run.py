@@ -79,7 +79,7 @@ class SmallRun:
 
     def do(self, folder, *words, threads=1, **fault):
         """Runs the program; fault: kind and at, or log, as faulty_calls.c knows them."""
-        environment = dict(os.environ, OMP_WAIT_POLICY="passive", LC_ALL="C")
+        environment = dict(os.environ, LC_ALL="C")
         if fault:
             environment.update({f"FAULT_{key.upper()}": str(value) for key, value in fault.items()},
                                FAULT_FOLDER=str(folder), LD_PRELOAD=self.faulty_calls)

@@ -111,7 +111,7 @@ class LinearSimplicesExample : public testing::Test {
     body_->point.u[3 * particle + direction] += amount;
   }
   double energy() {
-    body_->formulation->deform(*body_, {}, 1);
+    body_->formulation->deform(*body_, {}, team_);
     return body_->formulation->stored_energy(*body_).elastic;
   }
 
@@ -119,14 +119,15 @@ class LinearSimplicesExample : public testing::Test {
   std::vector<double> positions_;
   std::vector<std::int64_t> simplices_;
   std::unique_ptr<Body> body_;
+  ThreadTeam team_{2};
 };
 
 TEST_F(LinearSimplicesExample, ForceIsMinusTheGradientOfTheEnergy) {
   std::uniform_real_distribution<double> uniform(-0.05, 0.05);
   for (int i = 0; i < kColumns * kRows; ++i)
     for (int k = 0; k < 2; ++k) displace(i, k, uniform(engine_));
-  body_->formulation->deform(*body_, {}, 2);
-  body_->formulation->forces(*body_, 2);
+  body_->formulation->deform(*body_, {}, team_);
+  body_->formulation->forces(*body_, team_);
   constexpr double step = 1e-6;
   double worst = 0, largest = 0;
   for (int i = 0; i < kColumns * kRows; ++i) {

@@ -63,7 +63,7 @@ class Queue:
         self.jobs.write_text("", encoding="utf-8")
         path, log = self.folder / script, self.folder / f"job-{number}.log"
         path.write_text(re.sub(r"(?m)^wall_limit=\S+", f"wall_limit={wall_limit}", path.read_text(encoding="utf-8")), encoding="utf-8")
-        environment = {"PATH": self.path, "QUEUE": str(self.jobs), "OMP_WAIT_POLICY": "passive"}
+        environment = {"PATH": self.path, "QUEUE": str(self.jobs)}
         if script.endswith(".slurm"):
             environment |= {"SLURM_JOB_ID": number, "SLURM_SUBMIT_DIR": str(self.folder), "SLURM_CPUS_PER_TASK": "2"}
         else:

@@ -8,6 +8,7 @@ import dependencies
 import equations
 import formatting
 import fortran
+import instruction_sets
 import keys
 import source_text
 import versions
@@ -32,6 +33,23 @@ class GuardTest(unittest.TestCase):
         self.assertEqual(len(complaints), len(texts), complaints)
         for complaint, text in zip(complaints, texts):
             self.assertIn(text, complaint)
+
+
+class InstructionSets(unittest.TestCase):
+    def test_symbols_of_the_set_and_local_ones_are_in_order(self):
+        listing = ("0000000000000000 D _ZN11cleave_avx27kernelsE\n"
+                   "0000000000000010 W _ZSt4fillIN11cleave_avx24PackILi4ELi4EEEEvPT_S4_RKS3_\n"
+                   "0000000000000020 t _ZL5local\n"
+                   "                 U memcpy\n")
+        self.assertEqual(instruction_sets.complaints(listing, "avx2"), [])
+
+    def test_what_the_linker_could_share_is_refused(self):
+        for letter, symbol in [("W", "_ZSt4fillIdEvPT_S0_RKS0_"), ("T", "_ZN6cleave6updateEv"),
+                               ("V", "_ZTIN11cleave_call6LawE"), ("u", "_ZZN6cleave1fEvE1x"),
+                               ("T", "_ZN13cleave_avx5126updateEv")]:
+            found = instruction_sets.complaints(f"0000000000000000 {letter} {symbol}\n", "avx2")
+            self.assertEqual(len(found), 1, symbol)
+            self.assertIn(symbol, found[0])
 
 
 class Dependencies(GuardTest):

@@ -1,7 +1,7 @@
 // Speed of the J2 return mapping in ns per point, elastic and plastic: our batches, the same source one
 // point at a time, and beside them, in the same run, the algorithm as it stands in textbooks with an
-// iterative eigen-solver of Eigen and with LAPACK's dsyev where these libraries were found. Judges
-// nothing. Serial.
+// iterative eigen-solver of Eigen and with LAPACK's dsyev where these libraries were found. The batches
+// use the instruction set in the label: CLEAVE_INSTRUCTION_SET=baseline|avx2|avx512. Judges nothing. Serial.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cleave/cleave.h"
+#include "core/instruction_set.hpp"
 #include "material/stress.hpp"
 
 #if defined(CLEAVE_BENCH_EIGEN)
@@ -82,8 +83,27 @@ void batch(benchmark::State& state) {
     if (status != CLEAVE_OK) throw std::runtime_error("a point failed");
   }
   report(state);
+  state.SetLabel(cleave::name_of(cleave::instruction_set()));
 }
 BENCHMARK(batch)->ArgName("plastic")->Arg(0)->Arg(1);
+
+// The laws without history beside it.
+void elastic(benchmark::State& state) {
+  Points points(false);
+  for (auto _ : state) {
+    const std::int32_t status = cleave_material_stress(
+        static_cast<std::int32_t>(state.range(0)), CLEAVE_3D, 3, kSteel.data(), 0, kPoints,
+        points.next(), nullptr, points.p.data(), nullptr, nullptr);
+    if (status != CLEAVE_OK) throw std::runtime_error("a point failed");
+  }
+  report(state);
+  state.SetLabel(cleave::name_of(cleave::instruction_set()));
+}
+BENCHMARK(elastic)
+    ->ArgName("law")
+    ->Arg(CLEAVE_MATERIAL_svk)
+    ->Arg(CLEAVE_MATERIAL_neo_hooke)
+    ->Arg(CLEAVE_MATERIAL_linear_elastic);
 
 // The same points kept by component, F in and Cauchy stress out, in blocks as host programs call.
 // measure: enum cleave_stress_measure; block: points of a call.

@@ -1,10 +1,11 @@
 // A host that calls the interface from several threads at once, as POSIX threads and as an OpenMP loop:
-// array calls on disjoint ranges of shared arrays, one model a thread, tables and messages. Results are
-// those of one thread, bit for bit; run under the thread sanitizer, which ends the program with a failure
-// where it sees a race.
+// array calls on disjoint ranges of shared arrays, one model a thread, each with a team of threads of its
+// own, tables and messages. Results are those of one thread, bit for bit; run under the thread sanitizer,
+// which ends the program with a failure where it sees a race.
 //
-//   concurrent_calls pthreads|openmp|models|tables     exit status 0: as expected
-//   concurrent_calls race                              two threads on one range: a race, on purpose
+//   concurrent_calls pthreads|openmp|models|teams|tables     exit status 0: as expected
+//   concurrent_calls race             two threads on one range: a race, on purpose
+//   concurrent_calls race_in_team     two blocks that write the same number
 #include <atomic>
 #include <barrier>
 #include <cstdio>
@@ -13,6 +14,7 @@
 #include <string>
 #include <thread>
 
+#include "core/thread_team.hpp"
 #include "support/bonds.hpp"
 
 namespace cleave::test {
@@ -136,10 +138,11 @@ void by_openmp() {
 }
 
 // A whole life of a model with fracture; the end state.
-std::vector<double> life(unsigned seed) {
-  const SimplexMesh mesh = patch(2, 8, 0.01, 0.15, seed);
+std::vector<double> life(unsigned seed, int cells, int threads) {
+  const SimplexMesh mesh = patch(2, cells, 0.08 / cells, 0.15, seed);
   cleave_model* model = nullptr;
   ok(cleave_model_create(CLEAVE_ABI_VERSION, &model));
+  ok(cleave_model_set_threads(model, threads));
   cleave_body_spec spec;
   ok(cleave_body_spec_init(&spec));
   spec.formulation = CLEAVE_FORMULATION_cbm;
@@ -180,11 +183,14 @@ std::vector<double> life(unsigned seed) {
   return v;
 }
 
-void many_models() {
+// One model a host thread, each of them with a team of as many threads as said.
+void many_models(int cells, int threads) {
   std::vector<std::vector<double>> found(kThreads);
-  in_threads([&](int t) { found[static_cast<std::size_t>(t)] = life(static_cast<unsigned>(t)); });
+  in_threads([&](int t) {
+    found[static_cast<std::size_t>(t)] = life(static_cast<unsigned>(t), cells, threads);
+  });
   for (int t = 0; t < kThreads; ++t)
-    if (found[static_cast<std::size_t>(t)] != life(static_cast<unsigned>(t)))
+    if (found[static_cast<std::size_t>(t)] != life(static_cast<unsigned>(t), cells, 1))
       fail("a model beside others is not the same as alone");
 }
 
@@ -213,6 +219,17 @@ void race() {
   in_threads([&](int) { host.stress(0, host.n); });
 }
 
+void race_in_team() {
+  ThreadTeam team(2);
+  std::barrier<> both(2);
+  std::int64_t last = 0;
+  team.for_blocks(2, [&](std::int64_t block) {
+    both.arrive_and_wait();
+    last = block;
+  });
+  std::printf("%d\n", static_cast<int>(last));
+}
+
 }  // namespace
 }  // namespace cleave::test
 
@@ -224,13 +241,18 @@ int main(int count, char** arguments) {
   } else if (part == "openmp") {
     by_openmp();
   } else if (part == "models") {
-    many_models();
+    many_models(8, 1);
+  } else if (part == "teams") {
+    many_models(40, 3);  // several blocks of particles
   } else if (part == "tables") {
     tables_first();
   } else if (part == "race") {
     race();
+  } else if (part == "race_in_team") {
+    race_in_team();
   } else {
-    std::fprintf(stderr, "usage: concurrent_calls pthreads|openmp|models|tables|race\n");
+    std::fprintf(stderr,
+                 "usage: concurrent_calls pthreads|openmp|models|teams|tables|race|race_in_team\n");
     return 2;
   }
   return 0;

@@ -7,6 +7,7 @@
 #include "run/run.hpp"
 #include "run/simulation.hpp"
 #include "run/stop_file.hpp"
+#include "run/threads.hpp"
 #include "scene/format.hpp"
 #include "scene/index.hpp"
 
@@ -53,8 +54,7 @@ double time_a_step(Scene& scene, const Clock& clock) {
 }  // namespace
 
 int check_deck(const Deck& deck, const RunOptions& options) {
-  const int threads =
-      options.threads > 0 ? options.threads : static_cast<int>(deck.one("run").integer("threads"));
+  const int threads = threads_of(deck, options);
   Scene scene = Scene::from_deck(deck, threads);
   const TimeStep step = choose_time_step(scene);
   StopFile(deck, FileNames::of_deck(deck)).refuse_leftover(deck);

@@ -5,73 +5,12 @@
 #include <cmath>
 #include <sstream>
 
+#include "run/checkpoint_format.hpp"
 #include "scene/format.hpp"
 #include "scene/index.hpp"
-#include "scene/unit_text.hpp"
 
 namespace cleave::driver {
 namespace {
-
-constexpr std::int64_t kFormat = 2;
-
-std::string fingerprint() {
-  std::uint64_t value = 0;
-  check(cleave_field_table_fingerprint(&value));
-  char text[17] = {};
-  std::to_chars(text, text + 16, value, 16);
-  return text;
-}
-
-io::NamedArray array_of(const Scene& scene, Index body, const cleave_field& field) {
-  const UnitText units(scene.deck().one("run").text("units"));
-  io::NamedArray array;
-  array.name = scene.bodies()[at(body)].name + "/" + field.name;
-  array.units = units(field.units);
-  array.description = field.description;
-  array.components = field.components;
-  const std::size_t size = at(field.count * field.components);
-  if (field.type == CLEAVE_INTEGER) {
-    array.data = std::vector<std::int64_t>(size);
-  } else {
-    array.data = std::vector<double>(size);
-  }
-  return array;
-}
-
-void read_field(const Scene& scene, Index body, const cleave_field& field, io::NamedArray& array) {
-  std::visit([&](auto& values) { scene.model().get(body, field.name, values); }, array.data);
-}
-
-// Calls visit(body, field) for every field of the given lifetime, in a fixed order.
-template <class Visit>
-void for_fields(const Scene& scene, std::int32_t lifetime, Visit visit) {
-  for (Index body = 0; body < scene.model().bodies(); ++body) {
-    for (const cleave_field& field : scene.model().fields(body)) {
-      if (field.lifetime == lifetime) visit(body, field);
-    }
-  }
-}
-
-io::NamedArray integers(std::string name, std::string description, std::vector<Index> values) {
-  return {std::move(name), "1", std::move(description), 1, std::move(values)};
-}
-
-// What a model does not give back of a body: simplices, numbers in the mesh, and sets.
-void add_geometry(const BodyGeometry& body, io::Archive& archive) {
-  archive.arrays.push_back(
-      integers(body.name + "/point_ids", "number of the particle in the mesh", body.point_ids));
-  std::string names;
-  for (std::size_t i = 0; i < body.groups.size(); ++i) {
-    names += body.groups[i].name + "\n";
-    archive.arrays.push_back(integers(body.name + "/group/" + std::to_string(i + 1),
-                                      "particles of mesh group " + body.groups[i].name,
-                                      body.groups[i].particles));
-  }
-  archive.arrays.push_back({body.name + "/simplices", "1", "particles of every simplex",
-                            body.simplex_nodes(), body.simplices});
-  archive.attributes.emplace_back(body.name + ".groups", names);
-  archive.attributes.emplace_back(body.name + ".dimension", Index{body.dimension});
-}
 
 [[noreturn]] void damaged(const std::string& path, const std::string& what) {
   throw DeckError(path + ": " + what +
@@ -79,7 +18,8 @@ void add_geometry(const BodyGeometry& body, io::Archive& archive) {
 }
 
 template <class T>
-const T& attribute(const io::Archive& archive, const std::string& name, const std::string& path) {
+const T& attribute(const io::ArchiveHeader& archive, const std::string& name,
+                   const std::string& path) {
   const io::AttributeValue* value = archive.find_attribute(name);
   const T* typed = value == nullptr ? nullptr : std::get_if<T>(value);
   if (typed == nullptr) damaged(path, "it has no attribute " + in_quotes(name));
@@ -87,22 +27,29 @@ const T& attribute(const io::Archive& archive, const std::string& name, const st
 }
 
 template <class T>
-const std::vector<T>& array(const io::Archive& archive, const std::string& name,
-                            const std::string& path) {
-  const io::NamedArray* found = archive.find_array(name);
-  const auto* typed = found == nullptr ? nullptr : std::get_if<std::vector<T>>(&found->data);
-  if (typed == nullptr) damaged(path, "it has no array " + in_quotes(name));
-  return *typed;
+std::vector<T> array(const io::ArchiveHeader& archive, const std::string& name,
+                     const std::string& path) {
+  if (archive.find_array(name) == nullptr) damaged(path, "it has no array " + in_quotes(name));
+  io::NamedArray found = io::read_archive_array(path, name);
+  auto* typed = std::get_if<std::vector<T>>(&found.data);
+  if (typed == nullptr) damaged(path, "array " + in_quotes(name) + " is of another type");
+  return std::move(*typed);
 }
 
-BodyGeometry body_from(const io::Archive& archive, const std::string& name,
+BodyGeometry body_from(const io::ArchiveHeader& archive, const std::string& name,
                        const std::string& path) {
   BodyGeometry body;
   body.name = name;
   body.dimension = static_cast<int>(attribute<Index>(archive, name + ".dimension", path));
   body.X = array<double>(archive, name + "/reference_position", path);
   body.point_ids = array<Index>(archive, name + "/point_ids", path);
-  body.simplices = array<Index>(archive, name + "/simplices", path);
+  for (const Index particle : array<Index>(archive, name + "/simplices", path)) {
+    if (particle < 0 || particle >= body.particles()) {
+      damaged(path, "array " + in_quotes(name + "/simplices") + " names particle " +
+                        number(particle) + " of " + number(body.particles()));
+    }
+    body.simplices.push_back(static_cast<std::int32_t>(particle));
+  }
   body.quadratic = archive.find_array(name + "/simplices")->components != body.dimension + 1;
   std::istringstream names(attribute<std::string>(archive, name + ".groups", path));
   Index group = 0;
@@ -115,70 +62,12 @@ BodyGeometry body_from(const io::Archive& archive, const std::string& name,
 
 }  // namespace
 
-void Snapshot::take(const Scene& scene, Index step, const Cursors& cursors) {
-  if (arrays_.empty()) {
-    for_fields(scene, CLEAVE_LIFETIME_STATE, [&](Index body, const cleave_field& field) {
-      arrays_.push_back(array_of(scene, body, field));
-    });
-  }
-  std::size_t next = 0;
-  for_fields(scene, CLEAVE_LIFETIME_STATE, [&](Index body, const cleave_field& field) {
-    read_field(scene, body, field, arrays_[next++]);
-  });
-  step_ = step;
-  cursors_ = cursors;
-}
-
-void Snapshot::write(const std::string& path, const Scene& scene, const Clock& clock) const {
-  io::Archive archive;
-  const Deck& deck = scene.deck();
-  std::string bodies;
-  for (const BodyGeometry& body : scene.bodies()) bodies += body.name + "\n";
-  archive.attributes = {{"content", "cleave checkpoint"},
-                        {"format", kFormat},
-                        {"cleave_version", cleave_version()},
-                        {"fields_fingerprint", fingerprint()},
-                        {"title", deck.one("run").text("title")},
-                        {"units", deck.one("run").text("units")},
-                        {"step", step_},
-                        {"steps", clock.steps},
-                        {"time", clock.time(step_)},
-                        {"time_step", clock.dt},
-                        {"frames", cursors_.frames},
-                        {"history_records", cursors_.history},
-                        {"event_records", cursors_.events},
-                        {"bodies", bodies},
-                        {"deck_path", deck.source.path},
-                        {"deck", deck.source.text},
-                        {"resolved_deck", deck.resolved()}};
-  for (const BodyGeometry& body : scene.bodies()) add_geometry(body, archive);
-  for_fields(scene, CLEAVE_LIFETIME_SETUP, [&](Index body, const cleave_field& field) {
-    archive.arrays.push_back(array_of(scene, body, field));
-    read_field(scene, body, field, archive.arrays.back());
-  });
-  archive.arrays.insert(archive.arrays.end(), arrays_.begin(), arrays_.end());
-  io::write_archive(path, archive);
-}
-
-std::string not_finite(const Scene& scene) {
-  std::string found;
-  for_fields(scene, CLEAVE_LIFETIME_STATE, [&](Index body, const cleave_field& field) {
-    if (!found.empty() || field.type != CLEAVE_REAL) return;
-    const auto values = scene.model().reals(body, field.name);
-    const auto bad = std::find_if(values.begin(), values.end(),
-                                  [](double value) { return !std::isfinite(value); });
-    if (bad == values.end()) return;
-    const auto entry = (bad - values.begin()) / field.components;
-    const BodyGeometry& geometry = scene.bodies()[at(body)];
-    found = "field " + in_quotes(field.name) + " of body " + in_quotes(geometry.name);
-    if (field.relation == CLEAVE_RELATION_POINT) {
-      found += " is not finite at particle " + number(geometry.point_ids[at(entry)]) +
-               " (reference position " + point_text(&geometry.X[at(3 * entry)]) + ")";
-    } else {
-      found += " is not finite in entry " + number(Index{entry});
-    }
-  });
-  return found;
+std::string fields_fingerprint() {
+  std::uint64_t value = 0;
+  check(cleave_field_table_fingerprint(&value));
+  char text[17] = {};
+  std::to_chars(text, text + 16, value, 16);
+  return text;
 }
 
 std::string why_not_continued(const std::vector<io::Attribute>& attributes) {
@@ -201,18 +90,19 @@ std::string why_not_continued(const std::vector<io::Attribute>& attributes) {
                                  "file: cleave info --deck FILE";
   const io::AttributeValue format = value("format");
   const auto* number_of = std::get_if<Index>(&format);
-  if (number_of == nullptr || *number_of != kFormat) {
+  if (number_of == nullptr || *number_of != kCheckpointFormat) {
     return "it has checkpoint format " + (number_of == nullptr ? "unknown" : number(*number_of)) +
-           ", written by " + writer + "; " + self + " reads format " + number(kFormat) + what_to_do;
+           ", written by " + writer + "; " + self + " reads format " + number(kCheckpointFormat) +
+           what_to_do;
   }
-  if (text("fields_fingerprint") != fingerprint()) {
+  if (text("fields_fingerprint") != fields_fingerprint()) {
     return "its fields are those of " + writer + " (fingerprint " + text("fields_fingerprint") +
-           "), which differ from those of " + self + " (" + fingerprint() + ")" + what_to_do;
+           "), which differ from those of " + self + " (" + fields_fingerprint() + ")" + what_to_do;
   }
   return {};
 }
 
-CheckpointHeader header_of(const io::Archive& archive, const std::string& path) {
+CheckpointHeader header_of(const io::ArchiveHeader& archive, const std::string& path) {
   const std::string why_not = why_not_continued(archive.attributes);
   if (!why_not.empty()) throw DeckError(path + ": " + why_not);
   CheckpointHeader header;
@@ -244,7 +134,7 @@ Deck deck_of(const CheckpointHeader& header) {
   return deck;
 }
 
-std::vector<BodyGeometry> bodies_of(const io::Archive& archive, const Deck& deck,
+std::vector<BodyGeometry> bodies_of(const io::ArchiveHeader& archive, const Deck& deck,
                                     const std::string& path) {
   std::vector<std::string> stored;
   std::istringstream lines(attribute<std::string>(archive, "bodies", path));
@@ -270,10 +160,10 @@ std::vector<BodyGeometry> bodies_of(const io::Archive& archive, const Deck& deck
   return bodies;
 }
 
-void restore_fields(const io::Archive& archive, const CheckpointHeader& header, Scene& scene,
+void restore_fields(const io::ArchiveHeader& archive, const CheckpointHeader& header, Scene& scene,
                     const std::string& path) {
   const auto put = [&](Index body, const cleave_field& field) {
-    const std::string name = scene.bodies()[at(body)].name + "/" + field.name;
+    const std::string name = array_name(scene, body, field);
     const auto expected = at(field.count * field.components);
     const auto put_array = [&](const auto& values) {
       if (values.size() != expected) {

@@ -46,6 +46,11 @@ void remove_with_ending(const FileNames& names, const std::string& ending) {
   for (const fs::path& path : found) fs::remove(path, ignored);
 }
 
+io::ArchiveHeader verified_header(const std::string& path) {
+  io::verify_archive(path);
+  return io::read_archive_header(path);
+}
+
 }  // namespace
 
 std::vector<CheckpointFile> checkpoint_files(const fs::path& directory) {
@@ -91,7 +96,7 @@ void set_aside(const FileNames& names) {
 
 Loaded load_checkpoint(const std::string& file_or_directory) {
   if (!fs::is_directory(file_or_directory)) {
-    return {file_or_directory, io::read_archive(file_or_directory), {}};
+    return {file_or_directory, verified_header(file_or_directory), {}};
   }
   const std::vector<CheckpointFile> files = checkpoint_files(file_or_directory);
   const std::string pattern = std::string("NAME.STEP") + FileNames::kCheckpointEnding;
@@ -108,7 +113,7 @@ Loaded load_checkpoint(const std::string& file_or_directory) {
   Loaded loaded;
   for (auto file = files.rbegin(); file != files.rend(); ++file) {
     try {
-      loaded.archive = io::read_archive(file->path);
+      loaded.archive = verified_header(file->path);
       loaded.path = file->path;
       return loaded;
     } catch (const io::Error& error) {

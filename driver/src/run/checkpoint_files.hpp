@@ -30,10 +30,10 @@ void set_aside(const FileNames& names);
 // What a killed process left of a checkpoint that it was writing.
 void remove_half_written(const FileNames& names);
 
-// The checkpoint that a restart starts from.
+// The checkpoint that a restart starts from; all of it was verified.
 struct Loaded {
   std::string path;
-  io::Archive archive;
+  io::ArchiveHeader archive;
   std::vector<std::string> skipped;  // newer ones that did not verify, with the reason
 };
 // A file: that one. A directory: the newest that verifies. Throws io::Error or DeckError.

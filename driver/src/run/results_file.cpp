@@ -1,6 +1,7 @@
 #include "run/results_file.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 #include <set>
 
@@ -77,15 +78,24 @@ std::vector<cleave_field> chosen_fields(const Scene& scene) {
   return once;
 }
 
+// Two bodies of one mesh, or of two meshes that both count from 1, share numbers.
+bool repeats(const std::vector<Index>& ids) {
+  const auto descent = std::adjacent_find(ids.begin(), ids.end(), std::greater_equal<>{});
+  if (descent == ids.end()) return false;
+  std::vector<Index> sorted = ids;
+  std::sort(sorted.begin(), sorted.end());
+  return std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
+}
+
 void add_meshes(const Scene& scene, io::ResultLayout& layout) {
   Index first = 0;
   for (std::size_t b = 0; b < scene.bodies().size(); ++b) {
     const BodyGeometry& body = scene.bodies()[b];
     layout.points.insert(layout.points.end(), body.X.begin(), body.X.end());
     layout.point_ids.insert(layout.point_ids.end(), body.point_ids.begin(), body.point_ids.end());
-    io::ResultBlock block{body.name, static_cast<io::CellKind>(body.simplex_nodes()),
-                          body.simplices};
-    for (Index& node : block.nodes) node += first;
+    io::ResultBlock block{body.name, static_cast<io::CellKind>(body.simplex_nodes()), {}};
+    block.nodes.reserve(body.simplices.size());
+    for (const std::int32_t particle : body.simplices) block.nodes.push_back(first + particle);
     layout.blocks.push_back(std::move(block));
     for (const NamedSet& set : scene.sets().of_body(static_cast<Index>(b))) {
       auto group = std::find_if(layout.node_sets.begin(), layout.node_sets.end(),
@@ -98,9 +108,7 @@ void add_meshes(const Scene& scene, io::ResultLayout& layout) {
     }
     first += body.particles();
   }
-  // Two bodies of one mesh, or of two meshes that both count from 1, share numbers.
-  const std::set<Index> different(layout.point_ids.begin(), layout.point_ids.end());
-  if (different.size() != layout.point_ids.size()) {
+  if (repeats(layout.point_ids)) {
     std::iota(layout.point_ids.begin(), layout.point_ids.end(), 1);
   }
 }
@@ -121,7 +129,6 @@ ResultsFile::ResultsFile(const Scene& scene) {
   const DeckGroup& run = scene.deck().one("run");
   layout_.title = run.text("title").empty() ? "Cleave" : run.text("title");
   layout_.dimension = 3;  // also for plane bodies: readers then see displacements as vectors
-  add_meshes(scene, layout_);
   for (const cleave_field& field : chosen_fields(scene)) add_field(scene, field);
   const UnitText units(run.text("units"));
   for (const Global& global : kGlobals) {
@@ -130,12 +137,6 @@ ResultsFile::ResultsFile(const Scene& scene) {
   layout_.information = {{"cleave_version", cleave_version()},
                          {"units", run.text("units")},
                          {"deck", scene.deck().source.path}};
-  nodal_values_.assign(layout_.nodal.size(), std::vector<double>(layout_.point_ids.size()));
-  Index elements = 0;
-  for (const io::ResultBlock& block : layout_.blocks) {
-    elements += static_cast<Index>(block.nodes.size()) / static_cast<Index>(block.kind);
-  }
-  element_values_.assign(layout_.element.size(), std::vector<double>(at(elements)));
 }
 
 void ResultsFile::add_field(const Scene& scene, const cleave_field& field) {
@@ -143,53 +144,73 @@ void ResultsFile::add_field(const Scene& scene, const cleave_field& field) {
                                  [](const BodyGeometry& body) { return body.dimension == 2; });
   const bool nodal = is_nodal(field);
   const UnitText units(scene.deck().one("run").text("units"));
-  Source source{field.name, field.type == CLEAVE_INTEGER, field.components, {}};
+  std::vector<io::ResultVariable>& variables = nodal ? layout_.nodal : layout_.element;
+  Source source{field.name, field.type == CLEAVE_INTEGER, nodal, field.components, variables.size(),
+                {}};
   for (const Component& component : components_of(field.components, plane)) {
     std::string name = field.name + component.suffix;
     if (source.field == "displacement") name = std::string("DISPL") + "XYZ"[component.index];
     if (source.field == "simplex_alive") name = "status";
     source.written.push_back(component.index);
-    (nodal ? layout_.nodal : layout_.element)
-        .push_back({name, units(field.units), field.description});
+    variables.push_back({name, units(field.units), field.description});
   }
-  (nodal ? nodal_ : element_).push_back(std::move(source));
+  sources_.push_back(std::move(source));
 }
 
-void ResultsFile::create(const std::string& path) {
-  writer_ = io::ResultsWriter::create(path, layout_);
+io::ResultLayout ResultsFile::layout_with_mesh(const Scene& scene) const {
+  io::ResultLayout layout = layout_;
+  add_meshes(scene, layout);
+  return layout;
 }
 
-void ResultsFile::reopen(const std::string& path, Index frames) {
-  writer_ = io::ResultsWriter::reopen(path, layout_, frames);
+void ResultsFile::create(const std::string& path, const Scene& scene) {
+  writer_ = io::ResultsWriter::create(path, layout_with_mesh(scene));
 }
 
-void ResultsFile::fill(const Scene& scene, const Source& source,
-                       std::vector<std::vector<double>>& variables, std::size_t first) {
-  std::size_t begin = 0;  // of the body among all particles or simplices
+void ResultsFile::reopen(const std::string& path, const Scene& scene, Index frames) {
+  writer_ = io::ResultsWriter::reopen(path, layout_with_mesh(scene), frames);
+}
+
+// Entries first..last of the field, as reals.
+void ResultsFile::read(const Scene& scene, const Source& source, Index body, Index first,
+                       Index last) {
+  const std::size_t size = at((last - first) * source.components);
+  real_.resize(size);
+  if (!source.integer) {
+    scene.model().get(body, source.field.c_str(), first, last, real_);
+    return;
+  }
+  integer_.resize(size);
+  scene.model().get(body, source.field.c_str(), first, last, integer_);
+  std::copy(integer_.begin(), integer_.end(), real_.begin());
+}
+
+void ResultsFile::put(const Scene& scene, const Source& source, io::ResultsWriter::Frame& frame) {
+  constexpr Index kBlock = Index{1} << 14;  // stays in the processor's cache
+  Index begin = 0;                          // of the body among all particles or simplices
   for (Index body = 0; body < scene.model().bodies(); ++body) {
     const BodyGeometry& geometry = scene.bodies()[at(body)];
-    const bool nodal = &variables == &nodal_values_;
-    const std::size_t count = at(nodal ? geometry.particles() : geometry.simplex_count());
+    const Index count = source.nodal ? geometry.particles() : geometry.simplex_count();
     const auto field = scene.model().find_field(body, source.field);
-    const bool present = field.has_value() && is_nodal(*field) == nodal;
+    const bool present = field.has_value() && is_nodal(*field) == source.nodal;
     // Integration points of an element; the element shows their mean.
-    const std::size_t points = present && count > 0 ? at(field->count) / count : 1;
-    const std::size_t size = points * count * at(source.components);
-    real_.assign(size, 0.0);  // a body without this field shows zero
-    if (present && source.integer) {
-      integer_.resize(size);
-      scene.model().get(body, source.field.c_str(), integer_);
-      std::copy(integer_.begin(), integer_.end(), real_.begin());
-    } else if (present) {
-      scene.model().get(body, source.field.c_str(), real_);
-    }
-    for (std::size_t k = 0; k < source.written.size(); ++k) {
-      std::vector<double>& variable = variables[first + k];
-      for (std::size_t i = 0; i < count; ++i) {
-        double sum = 0;
-        for (std::size_t q = points * i; q < points * (i + 1); ++q)
-          sum += real_[q * at(source.components) + at(source.written[k])];
-        variable[begin + i] = sum / static_cast<double>(points);
+    const Index points = present && count > 0 ? field->count / count : 1;
+    for (Index first = 0; first < count; first += kBlock) {
+      const Index last = std::min(first + kBlock, count);
+      variable_.assign(at(last - first), 0.0);  // a body without this field shows zero
+      if (present) read(scene, source, body, points * first, points * last);
+      for (std::size_t k = 0; k < source.written.size(); ++k) {
+        for (std::size_t i = 0; present && i < variable_.size(); ++i) {
+          double sum = 0;
+          for (std::size_t q = at(points) * i; q < at(points) * (i + 1); ++q)
+            sum += real_[q * at(source.components) + at(source.written[k])];
+          variable_[i] = sum / static_cast<double>(points);
+        }
+        if (source.nodal) {
+          frame.put_nodal(source.variable + k, begin + first, variable_);
+        } else {
+          frame.put_element(source.variable + k, begin + first, variable_);
+        }
       }
     }
     begin += count;
@@ -197,19 +218,11 @@ void ResultsFile::fill(const Scene& scene, const Source& source,
 }
 
 void ResultsFile::write_frame(const Scene& scene, double time, const cleave_energies& energies) {
-  std::size_t first = 0;
-  for (const Source& source : nodal_) {
-    fill(scene, source, nodal_values_, first);
-    first += source.written.size();
-  }
-  first = 0;
-  for (const Source& source : element_) {
-    fill(scene, source, element_values_, first);
-    first += source.written.size();
-  }
   std::vector<double> globals;
   for (const Global& global : kGlobals) globals.push_back(energies.*global.value);
-  writer_->write_frame(time, nodal_values_, element_values_, globals);
+  io::ResultsWriter::Frame frame = writer_->begin_frame(time, globals);
+  for (const Source& source : sources_) put(scene, source, frame);
+  frame.finish();
 }
 
 }  // namespace cleave::driver

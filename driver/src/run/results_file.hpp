@@ -16,9 +16,9 @@ class ResultsFile {
   // Chooses the fields; throws DeckError where the deck asks for one that there is not.
   explicit ResultsFile(const Scene& scene);
 
-  void create(const std::string& path);
+  void create(const std::string& path, const Scene& scene);
   // Continues after `frames` frames.
-  void reopen(const std::string& path, std::int64_t frames);
+  void reopen(const std::string& path, const Scene& scene, std::int64_t frames);
   void write_frame(const Scene& scene, double time, const cleave_energies& energies);
   void sync() { writer_->sync(); }
   std::int64_t frames() const { return writer_ ? writer_->frames() : 0; }
@@ -26,18 +26,21 @@ class ResultsFile {
  private:
   struct Source {  // one field; its components go to consecutive variables
     std::string field;
-    bool integer;
+    bool integer, nodal;
     std::int64_t components;
+    std::size_t variable;               // number of the first one
     std::vector<std::int64_t> written;  // components that are written
   };
   void add_field(const Scene& scene, const cleave_field& field);
-  void fill(const Scene& scene, const Source& source, std::vector<std::vector<double>>& variables,
-            std::size_t first);
+  io::ResultLayout layout_with_mesh(const Scene& scene) const;
+  void put(const Scene& scene, const Source& source, io::ResultsWriter::Frame& frame);
+  void read(const Scene& scene, const Source& source, std::int64_t body, std::int64_t first,
+            std::int64_t last);
 
-  io::ResultLayout layout_;
-  std::vector<Source> nodal_, element_;
-  std::vector<std::vector<double>> nodal_values_, element_values_;
-  std::vector<double> real_;
+  io::ResultLayout layout_;  // without points and elements: the scene has them
+  std::vector<Source> sources_;
+  // One block of a field, and one of a variable.
+  std::vector<double> real_, variable_;
   std::vector<std::int64_t> integer_;
   std::optional<io::ResultsWriter> writer_;
 };

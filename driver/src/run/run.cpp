@@ -6,14 +6,10 @@
 #include "run/restart_deck.hpp"
 #include "run/simulation.hpp"
 #include "run/stop_file.hpp"
+#include "run/threads.hpp"
 
 namespace cleave::driver {
 namespace {
-
-int threads_of(const Deck& deck, const RunOptions& options) {
-  return options.threads > 0 ? options.threads
-                             : static_cast<int>(deck.one("run").integer("threads"));
-}
 
 void say(const RestartDeck& restart, const std::string& checkpoint, const RunOptions& options) {
   if (options.quiet || restart.changes.empty()) return;
@@ -43,7 +39,7 @@ int run_deck(const Deck& deck, const RunOptions& options) {
 
 int restart_run(const std::string& checkpoint_or_directory, const std::string& deck_path,
                 const RunOptions& options) {
-  Loaded loaded = load_checkpoint(checkpoint_or_directory);
+  const Loaded loaded = load_checkpoint(checkpoint_or_directory);
   const CheckpointHeader header = header_of(loaded.archive, loaded.path);
   std::optional<Deck> other;
   if (!deck_path.empty()) other = read_deck(deck_path);
@@ -55,7 +51,6 @@ int restart_run(const std::string& checkpoint_or_directory, const std::string& d
   Scene scene = Scene::from_bodies(deck, bodies_of(loaded.archive, deck, loaded.path),
                                    threads_of(deck, options));
   restore_fields(loaded.archive, header, scene, loaded.path);
-  loaded.archive = {};  // as large as the model
   TimeStep step;
   step.clock = {header.dt, restart.changes.empty()
                                ? header.steps

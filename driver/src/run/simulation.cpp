@@ -65,7 +65,7 @@ int Simulation::run() {
   set_aside(names_);
   remove_half_written(names_);
   write_text(names_.resolved(), scene_.deck().resolved(names_.directory.string()));
-  results_.create(names_.results());
+  results_.create(names_.results(), scene_);
   history_.create(names_, scene_, step_.clock);
   events_.create(names_.events(), scene_);
   progress_.banner(scene_, step_, 0);
@@ -82,7 +82,7 @@ int Simulation::run() {
 
 int Simulation::resume(const CheckpointHeader& header, const std::vector<std::string>& notes) {
   remove_half_written(names_);
-  results_.reopen(names_.results(), header.cursors.frames);
+  results_.reopen(names_.results(), scene_, header.cursors.frames);
   history_.reopen(names_, scene_, header.cursors.history);
   events_.reopen(names_.events(), scene_, header.cursors.events);
   progress_.banner(scene_, step_, header.step);
@@ -167,9 +167,13 @@ void Simulation::keep_good_state(Index step) {
   snapshot_seconds_ += progress_.seconds() - begin;
 }
 
-cleave_energies Simulation::finite_energies(Index step) const {
-  const cleave_energies energies = scene_.model().energies();
-  if (std::isfinite(energies.kinetic) && std::isfinite(energies.balance)) return energies;
+const cleave_energies& Simulation::finite_energies(Index step) {
+  if (step == energies_step_) return energies_;
+  energies_ = scene_.model().energies();
+  if (std::isfinite(energies_.kinetic) && std::isfinite(energies_.balance)) {
+    energies_step_ = step;
+    return energies_;
+  }
   std::string what = not_finite(scene_);
   if (what.empty()) what = "the energies are not finite";
   throw KernelError(what + " at step " + number(step) + ", time " + number(step_.clock.time(step)),

@@ -42,8 +42,8 @@ class Simulation {
   bool write_checkpoint(std::int64_t step);
   int stop(std::int64_t step, const std::string& why);
   void keep_good_state(std::int64_t step);
-  // Throws KernelError if the ledger is not finite, which any bad value ends in.
-  cleave_energies finite_energies(std::int64_t step) const;
+  // Found once a step. Throws KernelError if the ledger is not finite, which any bad value ends in.
+  const cleave_energies& finite_energies(std::int64_t step);
   [[noreturn]] void fail(std::int64_t step, const std::string& what);
   Cursors cursors() const;
   std::vector<std::string> file_list() const;
@@ -63,6 +63,8 @@ class Simulation {
   bool checkpoint_at_end_;
   Snapshot good_;  // the last state known to be finite
   double snapshot_seconds_ = 0;
+  cleave_energies energies_{};
+  std::int64_t energies_step_ = -1;  // the step they belong to
 };
 
 }  // namespace cleave::driver

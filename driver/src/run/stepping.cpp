@@ -52,8 +52,8 @@ void Stepping::explicit_step(Scene& scene, const Clock& clock, std::int64_t step
   Model& model = scene.model();
   std::int64_t parts = 1;
   if (adapt_) {
-    const double stable = scene.stable_step();
-    while (parts < kMostParts && clock.dt / static_cast<double>(parts) > stable) parts *= 2;
+    while (parts < kMostParts && !scene.is_stable(clock.dt / static_cast<double>(parts)))
+      parts *= 2;
   }
   const double dt = clock.dt / static_cast<double>(parts);
   for (std::int64_t part = 1; part <= parts; ++part) {

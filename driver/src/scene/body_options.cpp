@@ -64,7 +64,8 @@ void add_body(const Deck& deck, const DeckGroup& group, const BodyGeometry& geom
     spec.particles = geometry.particles();
     spec.X = geometry.X.data();
     spec.simplex_count = geometry.simplex_count();
-    spec.simplices = geometry.simplices.data();
+    const std::vector<Index> simplices(geometry.simplices.begin(), geometry.simplices.end());
+    spec.simplices = simplices.data();
     spec.simplex_nodes = static_cast<std::int32_t>(geometry.simplex_nodes());
     spec.name = geometry.name.c_str();
     body = model.add_body(spec);

@@ -1,11 +1,13 @@
 #include "scene/geometry.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <limits>
 #include <map>
-#include <set>
+#include <numeric>
+#include <utility>
 
 #include "io/error.hpp"
 #include "io/lattice.hpp"
@@ -62,20 +64,26 @@ io::Mesh mesh_of(const Deck& deck, const DeckGroup& group) {
   }
 }
 
-// Meshes by name, each read once.
+// Meshes by name, each read once and kept until its last body is made.
 class Meshes {
  public:
-  explicit Meshes(const Deck& deck) : deck_(deck) {}
+  explicit Meshes(const Deck& deck) : deck_(deck) {
+    for (const DeckGroup* body : deck.all("body")) ++bodies_left_[body->text("mesh")];
+  }
 
   const io::Mesh& get(const std::string& name) {
     const auto [entry, is_new] = meshes_.try_emplace(name);
     if (is_new) entry->second = mesh_of(deck_, named_group(deck_, {"mesh", "lattice"}, name));
     return entry->second;
   }
+  void used(const std::string& name) {
+    if (--bodies_left_.at(name) == 0) meshes_.erase(name);
+  }
 
  private:
   const Deck& deck_;
   std::map<std::string, io::Mesh> meshes_;
+  std::map<std::string, int> bodies_left_;
 };
 
 std::vector<std::string> group_names(const io::Mesh& mesh, int dimension) {
@@ -86,9 +94,9 @@ std::vector<std::string> group_names(const io::Mesh& mesh, int dimension) {
   return names;
 }
 
-// Mesh nodes of the simplices of a body, (dimension + 1, m).
-std::vector<Index> simplex_nodes(const Deck& deck, const DeckGroup& body, const io::Mesh& mesh,
-                                 int dimension) {
+// The cells of a body, numbers in the block of their kind.
+std::vector<Index> cells_of(const Deck& deck, const DeckGroup& body, const io::Mesh& mesh,
+                            int dimension) {
   const io::CellBlock& block = dimension == 2 ? mesh.triangles : mesh.tetrahedra;
   const std::string& set = body.text("set");
   const char* cells = dimension == 2 ? "triangles" : "tetrahedra";
@@ -100,7 +108,9 @@ std::vector<Index> simplex_nodes(const Deck& deck, const DeckGroup& body, const 
                     number(mesh.triangles.count()) + " triangles and " +
                     number(mesh.tetrahedra.count()) + " tetrahedra");
     }
-    return block.nodes;
+    std::vector<Index> all(at(block.count()));
+    std::iota(all.begin(), all.end(), Index{0});
+    return all;
   }
   const io::MeshGroup* group = mesh.find_group(set);
   if (group == nullptr || group->dimension != dimension || group->cells.empty()) {
@@ -108,14 +118,7 @@ std::vector<Index> simplex_nodes(const Deck& deck, const DeckGroup& body, const 
               in_quotes(set) + " is not a group of " + cells + " of the mesh; known groups of " +
                   cells + ": " + list(group_names(mesh, dimension)));
   }
-  std::vector<Index> nodes;
-  const auto corners = dimension + 1;
-  nodes.reserve(group->cells.size() * at(corners));
-  for (const Index cell : group->cells) {
-    const auto first = block.nodes.begin() + cell * corners;
-    nodes.insert(nodes.end(), first, first + corners);
-  }
-  return nodes;
+  return group->cells;
 }
 
 // A plane body lies in a plane of constant z; z is then dropped.
@@ -140,15 +143,31 @@ void check_body_name(const Deck& deck, const DeckGroup& group) {
   }
 }
 
-// New number of every mesh node, -1 if the body does not use it.
-std::vector<Index> renumber(const io::Mesh& mesh, std::vector<Index>& simplices) {
+// New number of every mesh node, -1 if the body does not use it; gives the body its simplices.
+std::vector<Index> take_simplices(const Deck& deck, const DeckGroup& group, const io::Mesh& mesh,
+                                  BodyGeometry& body) {
+  const std::vector<Index> cells = cells_of(deck, group, mesh, body.dimension);
+  const io::CellBlock& block = body.dimension == 2 ? mesh.triangles : mesh.tetrahedra;
+  const Index corners = body.dimension + 1;
   std::vector<Index> number_of(at(mesh.point_count()), -1);
-  for (const Index node : simplices) number_of[at(node)] = 0;
+  for (const Index cell : cells)
+    for (Index a = 0; a < corners; ++a) number_of[at(block.nodes[at(cell * corners + a)])] = 0;
   Index count = 0;
   for (Index& entry : number_of) {
     if (entry == 0) entry = count++;
   }
-  for (Index& node : simplices) node = number_of[at(node)];
+  if (count > std::numeric_limits<std::int32_t>::max()) {
+    deck.fail(group, "mesh",
+              "the body would have " + number(count) +
+                  " particles, more than the 2147483647 that are possible; divide it");
+  }
+  body.X.reserve(3 * at(count));
+  body.point_ids.reserve(at(count));
+  body.simplices.reserve(cells.size() * at(corners));
+  for (const Index cell : cells)
+    for (Index a = 0; a < corners; ++a)
+      body.simplices.push_back(
+          static_cast<std::int32_t>(number_of[at(block.nodes[at(cell * corners + a)])]));
   return number_of;
 }
 
@@ -157,8 +176,7 @@ BodyGeometry take_body(const Deck& deck, const DeckGroup& group, const io::Mesh&
   BodyGeometry body;
   body.name = group.text("name");
   body.dimension = dimension_of(group.text("kinematics"));
-  body.simplices = simplex_nodes(deck, group, mesh, body.dimension);
-  const std::vector<Index> number_of = renumber(mesh, body.simplices);
+  const std::vector<Index> number_of = take_simplices(deck, group, mesh, body);
   const auto& shift = group.reals("translate");
   for (Index node = 0; node < mesh.point_count(); ++node) {
     if (number_of[at(node)] < 0) continue;
@@ -194,50 +212,91 @@ const NamedSet* BodyGeometry::find_group(const std::string& group) const {
   return nullptr;
 }
 
+namespace {
+
+// Edges by their ends: those of each lower end are chained, of which there are a few.
+class Edges {
+ public:
+  explicit Edges(Index particles) : first_(at(particles), -1) {}
+
+  // The number of the edge; new ones are numbered in order.
+  std::pair<Index, bool> find_or_add(Index a, Index b) {
+    const auto [lower, upper] = std::minmax(a, b);
+    Index edge = first_[at(lower)];
+    while (edge >= 0 && edges_[at(edge)].upper != upper) edge = edges_[at(edge)].next;
+    if (edge >= 0) return {edge, false};
+    edges_.push_back({lower, upper, first_[at(lower)]});
+    first_[at(lower)] = std::ssize(edges_) - 1;
+    return {first_[at(lower)], true};
+  }
+
+  struct Edge {
+    Index lower, upper, next;
+  };
+  const std::vector<Edge>& all() const { return edges_; }
+
+ private:
+  std::vector<Index> first_;
+  std::vector<Edge> edges_;
+};
+
+}  // namespace
+
 void make_quadratic(BodyGeometry& body) {
-  std::map<std::pair<Index, Index>, Index> middle;
-  std::vector<Index> nodes;
+  const Index corners = body.particles();
+  Edges edges(corners);
+  std::vector<std::int32_t> nodes;
+  nodes.reserve(2 * body.simplices.size());
   Index last_id = *std::max_element(body.point_ids.begin(), body.point_ids.end());
   for (Index s = 0; s < body.simplex_count(); ++s) {
-    const Index* v = &body.simplices[at(s * body.simplex_nodes())];
+    const std::int32_t* v = &body.simplices[at(s * body.simplex_nodes())];
     nodes.insert(nodes.end(), v, v + 3);
     for (int a = 0; a < 3; ++a) {
-      const auto ends = std::minmax(v[a], v[(a + 1) % 3]);
-      const auto [entry, is_new] = middle.try_emplace(ends, body.particles());
-      nodes.push_back(entry->second);
+      const auto [edge, is_new] = edges.find_or_add(v[a], v[(a + 1) % 3]);
+      nodes.push_back(static_cast<std::int32_t>(corners + edge));
       if (!is_new) continue;
+      const auto& ends = edges.all()[at(edge)];
       for (Index k = 0; k < 3; ++k) {
-        body.X.push_back(0.5 * (body.X[at(3 * ends.first + k)] + body.X[at(3 * ends.second + k)]));
+        body.X.push_back(0.5 * (body.X[at(3 * ends.lower + k)] + body.X[at(3 * ends.upper + k)]));
       }
       body.point_ids.push_back(++last_id);
     }
   }
   for (NamedSet& group : body.groups) {
-    const std::set<Index> inside(group.particles.begin(), group.particles.end());
-    for (const auto& [ends, particle] : middle) {
-      if (inside.contains(ends.first) && inside.contains(ends.second))
-        group.particles.push_back(particle);
+    std::vector<char> inside(at(corners), 0);
+    for (const Index particle : group.particles) inside[at(particle)] = 1;
+    for (std::size_t e = 0; e < edges.all().size(); ++e) {
+      const auto& ends = edges.all()[e];
+      if (inside[at(ends.lower)] != 0 && inside[at(ends.upper)] != 0)
+        group.particles.push_back(corners + static_cast<Index>(e));
     }
-    std::sort(group.particles.begin(), group.particles.end());
   }
   body.simplices = std::move(nodes);
   body.quadratic = true;
 }
 
 double shortest_edge(const BodyGeometry& body) {
-  double shortest = std::numeric_limits<double>::infinity();
+  if (body.shortest_edge_found > 0) return body.shortest_edge_found;
+  double square = std::numeric_limits<double>::infinity();
+  std::array<double, 3> shortest{};
   const int corners = body.dimension + 1;
   for (Index s = 0; s < body.simplex_count(); ++s) {
-    const Index* v = &body.simplices[at(s * body.simplex_nodes())];
+    const std::int32_t* v = &body.simplices[at(s * body.simplex_nodes())];
     for (int a = 0; a < corners; ++a) {
       for (int b = a + 1; b < corners; ++b) {
-        const double* p = &body.X[at(3 * v[a])];
-        const double* q = &body.X[at(3 * v[b])];
-        shortest = std::min(shortest, std::hypot(q[0] - p[0], q[1] - p[1], q[2] - p[2]));
+        const double* p = &body.X[at(3 * Index{v[a]})];
+        const double* q = &body.X[at(3 * Index{v[b]})];
+        const std::array d{q[0] - p[0], q[1] - p[1], q[2] - p[2]};
+        const double found = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+        if (found < square) {
+          square = found;
+          shortest = d;
+        }
       }
     }
   }
-  return shortest;
+  body.shortest_edge_found = std::hypot(shortest[0], shortest[1], shortest[2]);
+  return body.shortest_edge_found;
 }
 
 Box bounding_box(const BodyGeometry& body) {
@@ -272,7 +331,9 @@ std::vector<BodyGeometry> take_bodies(const Deck& deck) {
   std::vector<Index> crack_use(precracks.size(), 0);
   for (const DeckGroup* group : groups) {
     check_body_name(deck, *group);
-    bodies.push_back(take_body(deck, *group, meshes.get(group->text("mesh")), crack_use));
+    const std::string& mesh = group->text("mesh");
+    bodies.push_back(take_body(deck, *group, meshes.get(mesh), crack_use));
+    meshes.used(mesh);
   }
   for (std::size_t i = 0; i < precracks.size(); ++i) {
     if (precracks[i]->text("shape") == "group" && crack_use[i] == 0) {

@@ -21,14 +21,16 @@ struct BodyGeometry {
   std::string name;
   int dimension = 3;      // 2 or 3
   std::vector<double> X;  // (3, n) reference position [m]
-  std::vector<std::int64_t>
-      simplices;           // (simplex_nodes, m): corners, then middles of edges 12 23 31
-  bool quadratic = false;  // six-node triangles
+  // (simplex_nodes, m): corners, then middles of edges 12 23 31; the largest array of a body, and
+  // particles are fewer than 2^31
+  std::vector<std::int32_t> simplices;
+  bool quadratic = false;               // six-node triangles
   std::vector<std::int64_t> point_ids;  // (n) number in the mesh file; split particles get new ones
   std::vector<NamedSet> groups;         // mesh groups that have particles in this body
   // Facets of every &precrack with shape = 'group' and mode = 'delete'; used once, before the first
   // step, and not part of a checkpoint.
   std::vector<std::vector<std::int64_t>> crack_facets;
+  mutable double shortest_edge_found = 0;  // 0: not yet
 
   std::int64_t particles() const { return static_cast<std::int64_t>(X.size()) / 3; }
   std::int64_t simplex_nodes() const { return quadratic ? 6 : dimension + 1; }
@@ -42,7 +44,7 @@ struct BodyGeometry {
 // ends belong to. Numbers of new particles follow the others.
 void make_quadratic(BodyGeometry& body);
 
-// Length of the shortest edge of the simplices [m].
+// Length of the shortest edge of the simplices [m]; found at the first call.
 double shortest_edge(const BodyGeometry& body);
 // Lowest and highest coordinates (3 + 3).
 struct Box {

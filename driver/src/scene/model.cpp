@@ -13,11 +13,12 @@ void check(std::int32_t status) {
   throw KernelError(text, status);
 }
 
-Model::Model(int threads) {
+Model::Model(int threads, std::int32_t order) {
   cleave_model* model = nullptr;
   check(cleave_model_create(CLEAVE_ABI_VERSION, &model));
   handle_.reset(model);
   check(cleave_model_set_threads(model, threads));
+  check(cleave_model_set_order(model, order));
 }
 
 std::int64_t Model::add_body(const cleave_body_spec& spec) {
@@ -33,6 +34,12 @@ double Model::stable_step() const {
   double step = 0;
   check(cleave_model_stable_step(handle(), &step));
   return step;
+}
+
+bool Model::is_stable(double dt) const {
+  std::int32_t stable = 0;
+  check(cleave_model_is_stable(handle(), dt, &stable));
+  return stable != 0;
 }
 
 double Model::wave_speed(std::int64_t body) const {
@@ -116,6 +123,16 @@ void Model::get(std::int64_t body, const char* name, std::span<double> values) c
 
 void Model::get(std::int64_t body, const char* name, std::span<std::int64_t> values) const {
   check(cleave_field_get_integer(handle(), body, name, 0, field(body, name).count, values.data()));
+}
+
+void Model::get(std::int64_t body, const char* name, std::int64_t first, std::int64_t last,
+                std::span<double> values) const {
+  check(cleave_field_get_real(handle(), body, name, first, last, values.data()));
+}
+
+void Model::get(std::int64_t body, const char* name, std::int64_t first, std::int64_t last,
+                std::span<std::int64_t> values) const {
+  check(cleave_field_get_integer(handle(), body, name, first, last, values.data()));
 }
 
 void Model::put(std::int64_t body, const char* name, std::span<const double> values) {

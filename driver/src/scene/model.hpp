@@ -26,7 +26,8 @@ void check(std::int32_t status);
 
 class Model {
  public:
-  explicit Model(int threads);
+  // order: enum cleave_order
+  Model(int threads, std::int32_t order);
 
   cleave_model* handle() const { return handle_.get(); }
   std::int64_t bodies() const { return bodies_; }
@@ -35,6 +36,7 @@ class Model {
   void setup();
 
   double stable_step() const;
+  bool is_stable(double dt) const;
   double wave_speed(std::int64_t body) const;
   std::int64_t memory() const;
   cleave_energies energies(std::int64_t body = -1) const;
@@ -48,6 +50,12 @@ class Model {
   // Whole fields: values has count * components entries.
   void get(std::int64_t body, const char* name, std::span<double> values) const;
   void get(std::int64_t body, const char* name, std::span<std::int64_t> values) const;
+  // Entries first..last.
+  void get(std::int64_t body, const char* name, std::int64_t first, std::int64_t last,
+           std::span<double> values) const;
+  void get(std::int64_t body, const char* name, std::int64_t first, std::int64_t last,
+           std::span<std::int64_t> values) const;
+  // Whole fields again.
   void put(std::int64_t body, const char* name, std::span<const double> values);
   void put(std::int64_t body, const char* name, std::span<const std::int64_t> values);
   std::vector<double> reals(std::int64_t body, const char* name) const;

@@ -9,6 +9,7 @@
 
 #include "scene/format.hpp"
 #include "scene/index.hpp"
+#include "scene/piece_grid.hpp"
 
 namespace cleave::driver {
 namespace {
@@ -82,13 +83,40 @@ bool misses(const Box& box, const double* p, const double* q) {
   return false;
 }
 
-// The particle's position, moved to the side of the normals if it lies on the crack.
-Vector beside_crack(const double* x, const std::vector<Surveyed>& pieces, const Box& box,
-                    double margin) {
+// A box around each piece, grown by its own size, which is far more than what counts as near even at
+// the tips of thin facets.
+std::vector<Box> grown_boxes(const std::vector<CrackPiece>& pieces, double margin) {
+  std::vector<Box> boxes;
+  for (const CrackPiece& piece : pieces) {
+    Box box = box_of({piece}, margin);
+    double size = 0;
+    for (int k = 0; k < 3; ++k) size = std::max(size, box.upper[k] - box.lower[k]);
+    for (int k = 0; k < 3; ++k) {
+      box.lower[k] -= size;
+      box.upper[k] += size;
+    }
+    boxes.push_back(box);
+  }
+  return boxes;
+}
+
+Box box_between(const double* p, const double* q) {
+  Box box{};
+  for (int k = 0; k < 3; ++k) {
+    box.lower[k] = std::min(p[k], q[k]);
+    box.upper[k] = std::max(p[k], q[k]);
+  }
+  return box;
+}
+
+// The particle's position, moved to the side of the normals if it lies on one of the pieces `near`.
+Vector beside_crack(const double* x, const std::vector<Surveyed>& pieces,
+                    const std::vector<std::int32_t>& near, const Box& box, double margin) {
   Vector moved{x[0], x[1], x[2]};
   if (misses(box, x, x)) return moved;
   Vector sum{0, 0, 0};
-  for (const Surveyed& s : pieces) {
+  for (const std::int32_t number : near) {
+    const Surveyed& s = pieces[at(number)];
     const double d = s.distance(x);
     if (std::abs(d) > margin) continue;
     const Vector foot{x[0] - d * s.normal[0], x[1] - d * s.normal[1], x[2] - d * s.normal[2]};
@@ -259,15 +287,18 @@ std::vector<Index> crossing_bonds(const std::vector<CrackPiece>& pieces, const B
   const Box box = box_of(pieces, 8 * margin);
   std::vector<Surveyed> surveyed;
   for (const CrackPiece& piece : pieces) surveyed.push_back({piece, normal_of(piece)});
+  PieceGrid grid(grown_boxes(pieces, 8 * margin));
   std::vector<Index> found;
   for (std::size_t b = 0; b + 1 < bonds.size(); b += 2) {
     const double* p = &body.X[at(3 * bonds[b])];
     const double* q = &body.X[at(3 * bonds[b + 1])];
     if (misses(box, p, q)) continue;
-    const Vector from = beside_crack(p, surveyed, box, margin);
-    const Vector to = beside_crack(q, surveyed, box, margin);
-    if (std::any_of(surveyed.begin(), surveyed.end(),
-                    [&](const Surveyed& s) { return crosses(s, from, to, margin); })) {
+    const std::vector<std::int32_t>& near = grid.near(box_between(p, q));
+    const Vector from = beside_crack(p, surveyed, near, box, margin);
+    const Vector to = beside_crack(q, surveyed, near, box, margin);
+    if (std::any_of(near.begin(), near.end(), [&](std::int32_t number) {
+          return crosses(surveyed[at(number)], from, to, margin);
+        })) {
       found.push_back(bonds[b]);
       found.push_back(bonds[b + 1]);
     }

@@ -31,7 +31,8 @@ Scene Scene::from_bodies(const Deck& deck, std::vector<BodyGeometry> bodies, int
   scene.motions_ = std::make_unique<Motions>(deck, *scene.bodies_, *scene.sets_);
   scene.sections_ = std::make_unique<Sections>(deck, *scene.bodies_, *scene.sets_);
   try {
-    scene.model_ = std::make_unique<Model>(threads);
+    const bool by_rows = deck.one("run").text("order") == "rows";
+    scene.model_ = std::make_unique<Model>(threads, by_rows ? CLEAVE_ORDER_ROWS : CLEAVE_ORDER_BLOCKS);
     add_bodies(deck, *scene.bodies_, *scene.sets_, *scene.model_);
     exempt(deck, *scene.sets_, *scene.model_);
     scene.motions_->prescribe(*scene.model_);
@@ -51,13 +52,22 @@ Scene Scene::from_deck(const Deck& deck, int threads) {
 
 // Stability: the largest eigenvalue of a sum is at most the sum of the largest. Accuracy: contact that
 // begins and ends between steps keeps the energy while omega dt is small.         [CBM contact-step]
+constexpr double kContactPhase = 0.6;
+
 double Scene::stable_step() const {
-  constexpr double kContactPhase = 0.6;
   const double step = model().stable_step();
   const double square = forces().contact_frequency_squared();
   if (!(square > 0)) return step;
   return std::min(step / std::sqrt(1 + 0.25 * step * step * square),
                   kContactPhase / std::sqrt(square));
+}
+
+// dt <= stable_step(), solved for the step without contact.
+bool Scene::is_stable(double dt) const {
+  const double square = forces().contact_frequency_squared();
+  if (!(square > 0)) return model().is_stable(dt);
+  return dt <= kContactPhase / std::sqrt(square) &&
+         model().is_stable(dt / std::sqrt(1 - 0.25 * dt * dt * square));
 }
 
 void Scene::put_initial_velocities() {

@@ -37,6 +37,7 @@ class Scene {
 
   // The largest stable step now [s]: that of the model, shortened by the stiffness of walls.
   double stable_step() const;
+  bool is_stable(double dt) const;  // dt <= stable_step(), cheaper
 
   // Gives particles the velocities of the &initial groups.
   void put_initial_velocities();

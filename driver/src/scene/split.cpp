@@ -28,14 +28,16 @@ std::set<Facet> facet_set(const std::vector<Index>& facets, int dimension) {
 }
 
 // The simplices of every particle in `particles`.
-std::map<Index, std::vector<Index>> simplices_around(const std::set<Index>& particles,
+std::map<Index, std::vector<Index>> simplices_around(const std::vector<Index>& particles,
                                                      const BodyGeometry& body) {
+  std::vector<char> wanted(at(body.particles()), 0);
+  for (const Index particle : particles) wanted[at(particle)] = 1;
   std::map<Index, std::vector<Index>> around;
   const int corners = body.dimension + 1;
   for (Index s = 0; s < body.simplex_count(); ++s) {
     for (int a = 0; a < corners; ++a) {
       const Index particle = body.simplices[at(s * corners + a)];
-      if (particles.count(particle) > 0) around[particle].push_back(s);
+      if (wanted[at(particle)] != 0) around[particle].push_back(s);
     }
   }
   return around;
@@ -48,7 +50,7 @@ std::vector<int> groups_around(Index particle, const std::vector<Index>& simplic
   const int corners = body.dimension + 1;
   std::map<Facet, std::vector<std::size_t>> sharing;
   for (std::size_t k = 0; k < simplices.size(); ++k) {
-    const Index* v = &body.simplices[at(simplices[k] * corners)];
+    const std::int32_t* v = &body.simplices[at(simplices[k] * corners)];
     for (int opposite = 0; opposite < corners; ++opposite) {
       if (v[opposite] == particle) continue;
       std::array<Index, 3> nodes{-1, -1, -1};
@@ -83,10 +85,10 @@ std::vector<int> groups_around(Index particle, const std::vector<Index>& simplic
   return group;
 }
 
-Index add_copy(Index particle, BodyGeometry& body) {
+Index add_copy(Index particle, Index id, BodyGeometry& body) {
   const Index copy = body.particles();
   for (Index k = 0; k < 3; ++k) body.X.push_back(body.X[at(3 * particle + k)]);
-  body.point_ids.push_back(*std::max_element(body.point_ids.begin(), body.point_ids.end()) + 1);
+  body.point_ids.push_back(id);
   for (NamedSet& set : body.groups) {
     if (std::binary_search(set.particles.begin(), set.particles.end(), particle)) {
       set.particles.push_back(copy);  // the highest number: stays sorted
@@ -130,13 +132,13 @@ std::vector<Index> crack_facets(const Deck& deck, const DeckGroup& precrack, con
 
 Index split_along(const std::vector<Index>& facets, BodyGeometry& body) {
   const std::set<Facet> crack = facet_set(facets, body.dimension);
-  const std::set<Index> on_crack(facets.begin(), facets.end());
   // The groups are found in the mesh as it was, before any particle is doubled.
-  const auto around = simplices_around(on_crack, body);
+  const auto around = simplices_around(facets, body);
   std::map<Index, std::vector<int>> groups;
   for (const auto& [particle, simplices] : around) {
     groups[particle] = groups_around(particle, simplices, crack, body);
   }
+  const Index last_id = *std::max_element(body.point_ids.begin(), body.point_ids.end());
   Index added = 0;
   const int corners = body.dimension + 1;
   for (const auto& [particle, simplices] : around) {
@@ -145,12 +147,11 @@ Index split_along(const std::vector<Index>& facets, BodyGeometry& body) {
     for (std::size_t k = 0; k < simplices.size(); ++k) {
       const auto [entry, is_new] = copy_of.try_emplace(group[k], 0);
       if (is_new) {
-        entry->second = add_copy(particle, body);
-        ++added;
+        entry->second = add_copy(particle, last_id + ++added, body);
       }
       for (int a = 0; a < corners; ++a) {
-        Index& corner = body.simplices[at(simplices[k] * corners + a)];
-        if (corner == particle) corner = entry->second;
+        std::int32_t& corner = body.simplices[at(simplices[k] * corners + a)];
+        if (corner == particle) corner = static_cast<std::int32_t>(entry->second);
       }
     }
   }

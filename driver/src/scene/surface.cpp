@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <numeric>
 #include <utility>
 
 #include "scene/index.hpp"
@@ -9,32 +11,67 @@
 namespace cleave::driver {
 namespace {
 
+// A facet in the list of its lowest particle.
 struct Candidate {
-  std::array<Index, 3> key;  // sorted particles; -1 first in two dimensions
-  Index opposite;            // particle of the simplex that is not in the facet
+  std::array<std::int32_t, 2> others;  // its other particles, sorted; in two dimensions -1 first
+  std::int32_t opposite;               // particle of the simplex that is not in the facet
 };
 
-// Facets of simplices whose particles are all in the set.
-std::vector<Candidate> candidates(const BodyGeometry& body, const std::vector<char>& inside) {
-  std::vector<Candidate> found;
+// Calls visit(lowest, candidate) for the facets of simplices whose particles are all in the set.
+template <class Visit>
+void for_candidates(const BodyGeometry& body, const std::vector<char>& inside, Visit visit) {
   const int corners = body.dimension + 1;
   for (Index s = 0; s < body.simplex_count(); ++s) {
-    const Index* v = &body.simplices[at(s * body.simplex_nodes())];
+    const std::int32_t* v = &body.simplices[at(s * body.simplex_nodes())];
+    const auto outside = std::count_if(
+        v, v + corners, [&](std::int32_t particle) { return inside[at(particle)] == 0; });
+    if (outside > 1) continue;
     for (int opposite = 0; opposite < corners; ++opposite) {
-      Candidate candidate{{-1, -1, -1}, v[opposite]};
+      if (outside == 1 && inside[at(v[opposite])] != 0) continue;
+      std::array<std::int32_t, 3> facet{-1, -1, -1};
       std::size_t count = 0;
-      bool all = true;
       for (int a = 0; a < corners; ++a) {
-        if (a == opposite) continue;
-        candidate.key[count++] = v[a];
-        all = all && inside[at(v[a])] != 0;
+        if (a != opposite) facet[count++] = v[a];
       }
-      if (!all) continue;
-      std::sort(candidate.key.begin(), candidate.key.end());
-      found.push_back(candidate);
+      std::sort(facet.begin(), facet.end());
+      if (body.dimension == 2) std::swap(facet[0], facet[1]);  // -1, lower, upper
+      visit(facet[0], Candidate{{facet[1], facet[2]}, v[opposite]});
     }
   }
+}
+
+// The candidates of lowest particle i: list[begin[i]] to list[begin[i + 1]].
+struct Candidates {
+  std::vector<Index> begin;
+  std::vector<Candidate> list;
+};
+
+Candidates find_candidates(const BodyGeometry& body, const std::vector<char>& inside) {
+  Candidates found{std::vector<Index>(at(body.particles()) + 1, 0), {}};
+  for_candidates(body, inside, [&](Index lowest, const Candidate&) { ++found.begin[at(lowest)]; });
+  std::inclusive_scan(found.begin.begin(), found.begin.end(), found.begin.begin());
+  found.list.resize(at(found.begin.back()));
+  // From the back, so that `begin` becomes what its name says.
+  for_candidates(body, inside, [&](Index lowest, const Candidate& candidate) {
+    found.list[at(--found.begin[at(lowest)])] = candidate;
+  });
   return found;
+}
+
+// Appends the particles of the facet, in the sense that the normal points away from the simplex.
+void add_outwards(const BodyGeometry& body, Index lowest, const Candidate& candidate,
+                  std::vector<Index>& facets) {
+  std::array<Index, 3> nodes{lowest, candidate.others[0], candidate.others[1]};
+  if (body.dimension == 2) nodes = {lowest, candidate.others[1], -1};
+  const double* x[3] = {};
+  for (std::size_t a = 0; a < at(body.dimension); ++a) x[a] = &body.X[at(3 * nodes[a])];
+  double area[3];
+  area_vector(body.dimension, x, area);
+  const double* inner = &body.X[at(3 * Index{candidate.opposite})];
+  const double outwards = area[0] * (x[0][0] - inner[0]) + area[1] * (x[0][1] - inner[1]) +
+                          area[2] * (x[0][2] - inner[2]);
+  if (outwards < 0) std::swap(nodes[0], nodes[1]);
+  facets.insert(facets.end(), nodes.begin(), nodes.begin() + body.dimension);
 }
 
 }  // namespace
@@ -56,31 +93,19 @@ void area_vector(int dimension, const double* const* x, double* area) {
 std::vector<Index> surface_facets(const BodyGeometry& body, const std::vector<Index>& particles) {
   std::vector<char> inside(at(body.particles()), 0);
   for (const Index particle : particles) inside[at(particle)] = 1;
-  std::vector<Candidate> found = candidates(body, inside);
-  std::sort(found.begin(), found.end(),
-            [](const Candidate& a, const Candidate& b) { return a.key < b.key; });
-  std::vector<Candidate> single;
-  for (std::size_t i = 0; i < found.size();) {
-    std::size_t next = i + 1;
-    while (next < found.size() && found[next].key == found[i].key) ++next;
-    if (next == i + 1) single.push_back(found[i]);
-    i = next;
-  }
-
+  Candidates found = find_candidates(body, inside);
   std::vector<Index> facets;
-  for (const Candidate& candidate : single) {
-    std::array<Index, 3> nodes = candidate.key;
-    if (body.dimension == 2) nodes = {nodes[1], nodes[2], -1};
-    const auto count = at(body.dimension);
-    const double* x[3] = {};
-    for (std::size_t a = 0; a < count; ++a) x[a] = &body.X[at(3 * nodes[a])];
-    double area[3];
-    area_vector(body.dimension, x, area);
-    const double* inner = &body.X[at(3 * candidate.opposite)];
-    const double outwards = area[0] * (x[0][0] - inner[0]) + area[1] * (x[0][1] - inner[1]) +
-                            area[2] * (x[0][2] - inner[2]);
-    if (outwards < 0) std::swap(nodes[0], nodes[1]);
-    facets.insert(facets.end(), nodes.begin(), nodes.begin() + body.dimension);
+  for (std::size_t lowest = 0; lowest + 1 < found.begin.size(); ++lowest) {
+    const auto first = found.list.begin() + found.begin[lowest];
+    const auto last = found.list.begin() + found.begin[lowest + 1];
+    std::sort(first, last,
+              [](const Candidate& a, const Candidate& b) { return a.others < b.others; });
+    for (auto i = first; i != last;) {
+      const auto next =
+          std::find_if(i, last, [&](const Candidate& other) { return other.others != i->others; });
+      if (next == i + 1) add_outwards(body, static_cast<Index>(lowest), *i, facets);
+      i = next;
+    }
   }
   return facets;
 }

@@ -40,6 +40,21 @@ recursive subroutine clmthr(mod, nthr, ierr)
   ierr = status
 end subroutine clmthr
 
+! Order of operations of a step: 1 blocks, without this call; 2 that of the array calls.
+recursive subroutine clmord(mod, iord, ierr)
+  use, intrinsic :: iso_c_binding, only: c_int32_t
+  use cleave77_support, only: model_of
+  use cleave, only: cleave_model, cleave_model_set_order, CLEAVE_OK
+  implicit none
+  integer, intent(in) :: mod, iord
+  integer, intent(out) :: ierr
+  type(cleave_model) :: model
+  integer(c_int32_t) :: status
+  call model_of('CLMORD', mod, model, status)
+  if (status == CLEAVE_OK) status = cleave_model_set_order(model, int(iord, c_int32_t))
+  ierr = status
+end subroutine clmord
+
 ! Checks everything and builds bonds, masses and fields.
 recursive subroutine clmset(mod, ierr)
   use, intrinsic :: iso_c_binding, only: c_int32_t
@@ -70,6 +85,26 @@ recursive subroutine clmstp(mod, step, ierr)
   if (status == CLEAVE_OK) status = cleave_model_stable_step(model, step)
   ierr = status
 end subroutine clmstp
+
+! Whether dt is not above it: 1 or 0.
+recursive subroutine clmsta(mod, dt, istab, ierr)
+  use, intrinsic :: iso_c_binding, only: c_int32_t, c_double
+  use cleave77_support, only: model_of
+  use cleave, only: cleave_model, cleave_model_is_stable, CLEAVE_OK
+  implicit none
+  integer, intent(in) :: mod
+  real(c_double), intent(in) :: dt
+  integer, intent(inout) :: istab
+  integer, intent(out) :: ierr
+  type(cleave_model) :: model
+  integer(c_int32_t) :: status
+  logical :: stable
+  stable = .false.
+  call model_of('CLMSTA', mod, model, status)
+  if (status == CLEAVE_OK) status = cleave_model_is_stable(model, dt, stable)
+  if (status == CLEAVE_OK) istab = merge(1, 0, stable)
+  ierr = status
+end subroutine clmsta
 
 ! Forces and accelerations at the start.
 recursive subroutine clmini(mod, time, ierr)

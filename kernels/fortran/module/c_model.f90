@@ -10,6 +10,7 @@ module cleave_c_model
   public :: cleave_model_destroy
   public :: cleave_model_set_index_base
   public :: cleave_model_set_threads
+  public :: cleave_model_set_order
   public :: cleave_body_spec_init
   public :: cleave_body_add
   public :: cleave_body_set_real
@@ -20,6 +21,7 @@ module cleave_c_model
   public :: cleave_model_setup
   public :: cleave_body_precrack
   public :: cleave_model_stable_step
+  public :: cleave_model_is_stable
   public :: cleave_body_wave_speed
   public :: cleave_body_motion
   public :: cleave_model_initialise
@@ -77,6 +79,14 @@ module cleave_c_model
       integer(c_int32_t), value :: threads
       integer(c_int32_t) :: status
     end function cleave_model_set_threads
+
+    function cleave_model_set_order(model, order) bind(C) result(status)
+      import :: c_ptr, c_int32_t
+      implicit none
+      type(c_ptr), value :: model
+      integer(c_int32_t), value :: order
+      integer(c_int32_t) :: status
+    end function cleave_model_set_order
 
     function cleave_body_spec_init(spec) bind(C) result(status)
       import :: cleave_body_spec, c_int32_t
@@ -166,6 +176,15 @@ module cleave_c_model
       real(c_double), intent(out) :: step
       integer(c_int32_t) :: status
     end function cleave_model_stable_step
+
+    function cleave_model_is_stable(model, dt, stable) bind(C) result(status)
+      import :: c_ptr, c_double, c_int32_t
+      implicit none
+      type(c_ptr), value :: model
+      real(c_double), value :: dt
+      integer(c_int32_t), intent(out) :: stable
+      integer(c_int32_t) :: status
+    end function cleave_model_is_stable
 
     function cleave_body_wave_speed(model, body, speed) bind(C) result(status)
       import :: c_ptr, c_int64_t, c_double, c_int32_t

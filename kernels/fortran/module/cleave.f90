@@ -13,7 +13,8 @@ module cleave
   use cleave_arrays_int64
   use cleave_materials
   use cleave_models, only: cleave_model, cleave_model_create, cleave_model_destroy, &
-      cleave_model_setup, cleave_model_stable_step, cleave_model_initialise, &
+      cleave_model_set_order, cleave_model_setup, cleave_model_stable_step, &
+      cleave_model_is_stable, cleave_model_initialise, &
       cleave_model_advance, cleave_model_update, cleave_static_options, cleave_static_report, &
       cleave_static_options_init, cleave_model_solve_static
   use cleave_specs

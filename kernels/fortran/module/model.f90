@@ -8,6 +8,7 @@ module cleave_models
   use cleave_c, only: c_create => cleave_model_create, &
       c_index_base => cleave_model_set_index_base, c_destroy => cleave_model_destroy, &
       c_setup => cleave_model_setup, c_stable_step => cleave_model_stable_step, &
+      c_order => cleave_model_set_order, c_is_stable => cleave_model_is_stable, &
       c_initialise => cleave_model_initialise, c_advance => cleave_model_advance, &
       c_update => cleave_model_update, c_solve => cleave_model_solve_static, &
       c_options_init => cleave_static_options_init, cleave_static_options, &
@@ -15,8 +16,9 @@ module cleave_models
   implicit none
   private
   public :: cleave_model, handle_of, ready
-  public :: cleave_model_create, cleave_model_destroy, cleave_model_setup, &
-      cleave_model_stable_step, cleave_model_initialise, cleave_model_advance, cleave_model_update
+  public :: cleave_model_create, cleave_model_destroy, cleave_model_set_order, &
+      cleave_model_setup, cleave_model_stable_step, cleave_model_is_stable, &
+      cleave_model_initialise, cleave_model_advance, cleave_model_update
   public :: cleave_static_options, cleave_static_report, cleave_static_options_init, &
       cleave_model_solve_static
 
@@ -44,6 +46,12 @@ module cleave_models
   interface cleave_model_stable_step
     module procedure model_stable_step
   end interface cleave_model_stable_step
+  interface cleave_model_set_order
+    module procedure model_set_order
+  end interface cleave_model_set_order
+  interface cleave_model_is_stable
+    module procedure model_is_stable
+  end interface cleave_model_is_stable
   interface cleave_model_initialise
     module procedure model_initialise
   end interface cleave_model_initialise
@@ -116,6 +124,25 @@ contains
     status = ready('cleave_model_stable_step', model)
     if (status == CLEAVE_OK) status = c_stable_step(model%handle, step)
   end function model_stable_step
+
+  ! order: CLEAVE_ORDER_BLOCKS or CLEAVE_ORDER_ROWS
+  recursive function model_set_order(model, order) result(status)
+    type(cleave_model), intent(in) :: model
+    integer(c_int32_t), intent(in) :: order
+    integer(c_int32_t) :: status
+    status = ready('cleave_model_set_order', model)
+    if (status == CLEAVE_OK) status = c_order(model%handle, order)
+  end function model_set_order
+
+  recursive function model_is_stable(model, dt, stable) result(status)
+    type(cleave_model), intent(in) :: model
+    real(c_double), intent(in) :: dt
+    logical, intent(inout) :: stable
+    integer(c_int32_t) :: status, answer
+    status = ready('cleave_model_is_stable', model)
+    if (status == CLEAVE_OK) status = c_is_stable(model%handle, dt, answer)
+    if (status == CLEAVE_OK) stable = answer /= 0
+  end function model_is_stable
 
   recursive function model_initialise(model, time) result(status)
     type(cleave_model), intent(in) :: model

@@ -355,6 +355,15 @@ CLEAVE_API int32_t cleave_model_set_index_base(cleave_model* model, int32_t base
 /* Threads the kernels may use; default 1.  Results do not depend on it, bit for bit. */
 CLEAVE_API int32_t cleave_model_set_threads(cleave_model* model, int32_t threads);
 
+/* The order of operations of the explicit step, before cleave_model_setup. Results differ by rounding. */
+enum cleave_order {
+  CLEAVE_ORDER_BLOCKS =
+      1, /* default: fixed blocks of particles, the fastest for any number of threads */
+  CLEAVE_ORDER_ROWS =
+      2 /* that of the array calls: the bits of a host that calls them in its loops */
+};
+CLEAVE_API int32_t cleave_model_set_order(cleave_model* model, int32_t order);
+
 typedef struct cleave_body_spec {
   int64_t size;
   int32_t formulation;      /* enum cleave_formulation */
@@ -409,6 +418,9 @@ CLEAVE_API int32_t cleave_body_precrack(cleave_model* model, int64_t body, int64
 /* Largest step that the formulations call stable, with their safety [s], shortened by the present
  * deformation.   theory: time step */
 CLEAVE_API int32_t cleave_model_stable_step(cleave_model* model, double* step);
+/* Whether dt <= that step: the same answer, cheaper, for hosts that ask before every step.
+ * [out] stable: 1 or 0 */
+CLEAVE_API int32_t cleave_model_is_stable(cleave_model* model, double dt, int32_t* stable);
 CLEAVE_API int32_t cleave_body_wave_speed(cleave_model* model, int64_t body, double* speed);
 
 /* ---- stepping: once initialise, then for every step advance, [loads], update.

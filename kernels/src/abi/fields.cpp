@@ -5,6 +5,7 @@
 #include "abi/guard.hpp"
 #include "model/interpolation.hpp"
 #include "model/model.hpp"
+#include "model/resident.hpp"
 
 using namespace cleave;
 using namespace cleave::abi;
@@ -46,6 +47,14 @@ Field& stored_field(Body& body, const char* name, std::int32_t type) {
                 text("field '", name, "' is computed from others and cannot be set"));
   }
   return f;
+}
+
+// Before and after the host writes into a field.
+void open_for_put(Body& body, const char* name) {
+  if (std::string_view(name) != "external_force") fetch(body);
+}
+void close_after_put(Body& body, const char* name) {
+  if (ResidentStep* resident = body.formulation->resident()) resident->changed(name);
 }
 
 // What a two-dimensional body has no use for is zero.
@@ -90,6 +99,7 @@ int32_t cleave_field_get_real(cleave_model* model, int64_t body, const char* nam
     check_range(first, last, f.count);
     if (first == last) return;
     required(values, "values");
+    fetch(b, name);
     if (f.spec.lifetime == CLEAVE_LIFETIME_DERIVED) {
       if (!derive_core(b, name, first, last, values) &&
           !b.formulation->derive(b, name, first, last, values)) {
@@ -109,18 +119,23 @@ int32_t cleave_field_put_real(cleave_model* model, int64_t body, const char* nam
     Field& f = stored_field(b, name, CLEAVE_REAL);
     check_range(first, last, f.count);
     if (first == last) return;
-    std::copy(&required(values, "values"), values + f.spec.components * (last - first),
+    required(values, "values");
+    open_for_put(b, name);
+    std::copy(values, values + f.spec.components * (last - first),
               f.real.begin() + f.spec.components * first);
     clear_third_component(b, f, first, last);
+    close_after_put(b, name);
   });
 }
 
 int32_t cleave_field_get_integer(cleave_model* model, int64_t body, const char* name, int64_t first,
                                  int64_t last, int64_t* values) {
   return guarded("cleave_field_get_integer", [&] {
-    const Field& f = find_field(body_with_fields(model, body), name, CLEAVE_INTEGER);
+    Body& b = body_with_fields(model, body);
+    const Field& f = find_field(b, name, CLEAVE_INTEGER);
     check_range(first, last, f.count);
     if (first == last) return;
+    fetch(b, name);
     std::copy(f.integer.begin() + f.spec.components * first,
               f.integer.begin() + f.spec.components * last, &required(values, "values"));
   });
@@ -129,14 +144,17 @@ int32_t cleave_field_get_integer(cleave_model* model, int64_t body, const char* 
 int32_t cleave_field_put_integer(cleave_model* model, int64_t body, const char* name, int64_t first,
                                  int64_t last, const int64_t* values) {
   return guarded("cleave_field_put_integer", [&] {
-    Field& f = stored_field(body_with_fields(model, body), name, CLEAVE_INTEGER);
+    Body& b = body_with_fields(model, body);
+    Field& f = stored_field(b, name, CLEAVE_INTEGER);
     check_range(first, last, f.count);
     if (first == last) return;
     required(values, "values");
+    open_for_put(b, name);
     for (int64_t k = 0; k < f.spec.components * (last - first); ++k) {
       f.integer[static_cast<std::size_t>(f.spec.components * first + k)] =
           static_cast<std::int32_t>(values[k]);
     }
+    close_after_put(b, name);
   });
 }
 
@@ -178,6 +196,7 @@ int32_t cleave_field_interpolate(cleave_model* model, int64_t body, const char* 
     required(simplex, "simplex");
     required(weight, "weight");
     required(values, "values");
+    fetch(b, name);
     const Field* simplices = b.fields.find("simplex_particles");
     for (int64_t p = 0; p < count; ++p) {
       Location at{simplex[p], {}};

@@ -5,6 +5,7 @@
 
 #include "abi/host_layout.hpp"
 #include "abi/material_checks.hpp"
+#include "material/stress_dispatch.hpp"
 #include "material/stress_measure.hpp"
 #include "material/tangent.hpp"
 
@@ -123,7 +124,7 @@ void update_block(const Host& host, std::int64_t first, std::int64_t last, Block
   arrays.plastic = block.plastic;
   arrays.viscous = block.viscous;
   arrays.failed = block.failed;
-  with_law(host.law, [&](const auto& law) { update_stress<D>(law, arrays, 0, last - first); });
+  update_stress(host.law, D, arrays, 0, last - first);
 }
 
 // Stress of a point in the measure of the host; false where that measure does not exist.
@@ -174,9 +175,7 @@ std::int64_t update_in_place(const Host& host) {
   arrays.plastic = c.plastic;
   arrays.viscous = c.viscous;
   arrays.failed = c.failed;
-  return with_law(host.law, [&](const auto& law) {
-    return update_stress<D>(law, arrays, c.first, c.last).first_failed;
-  });
+  return update_stress(host.law, D, arrays, c.first, c.last).first_failed;
 }
 
 // The first point of the range without an answer, or -1.

@@ -4,6 +4,8 @@
 #include <cstring>
 
 #include "abi/checks.hpp"
+#include "core/instruction_set.hpp"
+#include "model/resident.hpp"
 #include "solver/static_solver.hpp"
 
 using namespace cleave;
@@ -52,9 +54,13 @@ void add(cleave_counts& sum, const cleave_counts& c) {
 // Value of one body, or the sum over all for body = -1.
 template <class T, class Ask>
 T one_or_all(const cleave_model& model, std::int64_t body, const Ask& ask) {
-  if (body != -1) return ask(model.body(body));
+  const auto answer = [&](Body& b) {
+    fetch(b);
+    return ask(b);
+  };
+  if (body != -1) return answer(model.body(body));
   T sum{};
-  for (const auto& b : model.bodies) add(sum, ask(*b));
+  for (const auto& b : model.bodies) add(sum, answer(*b));
   return sum;
 }
 
@@ -66,6 +72,7 @@ int32_t cleave_model_create(int32_t abi, cleave_model** model) {
   return guarded("cleave_model_create", [&] {
     required(model, "model");
     check_abi(abi);
+    instruction_set();  // throws if the environment asks for one that this machine has not
     *model = new cleave_model;
   });
 }
@@ -87,7 +94,18 @@ int32_t cleave_model_set_threads(cleave_model* model, int32_t threads) {
   return guarded("cleave_model_set_threads", [&] {
     if (threads < 1)
       throw Error(CLEAVE_BAD_ARGUMENT, text("threads is ", threads, "; allowed: >= 1"));
-    checked(model).threads = threads;
+    checked(model).team.resize(threads);
+  });
+}
+
+int32_t cleave_model_set_order(cleave_model* model, int32_t order) {
+  return guarded("cleave_model_set_order", [&] {
+    checked(model).require(Phase::building, kBeforeSetup);
+    if (order != CLEAVE_ORDER_BLOCKS && order != CLEAVE_ORDER_ROWS) {
+      throw Error(CLEAVE_BAD_ARGUMENT,
+                  text("order is ", order, "; allowed: CLEAVE_ORDER_BLOCKS, CLEAVE_ORDER_ROWS"));
+    }
+    model->by_rows = order == CLEAVE_ORDER_ROWS;
   });
 }
 
@@ -189,6 +207,13 @@ int32_t cleave_model_stable_step(cleave_model* model, double* step) {
   return guarded("cleave_model_stable_step", [&] {
     checked(model).require_set_up();
     required(step, "step") = stable_step(*model);
+  });
+}
+
+int32_t cleave_model_is_stable(cleave_model* model, double dt, int32_t* stable) {
+  return guarded("cleave_model_is_stable", [&] {
+    checked(model).require_set_up();
+    required(stable, "stable") = is_stable(*model, dt) ? 1 : 0;
   });
 }
 
@@ -319,6 +344,7 @@ int32_t cleave_body_reaction(cleave_model* model, int64_t body, int64_t count,
   return guarded("cleave_body_reaction", [&] {
     checked(model).require_set_up();
     required(force, "force");
+    fetch(model->body(body), "acceleration");
     reaction(model->body(body), span_of(particle, count, "particle"), force);
   });
 }

@@ -10,6 +10,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/thread_team.hpp"
+
 namespace cleave {
 
 inline constexpr std::int64_t kBlock =
@@ -17,18 +19,12 @@ inline constexpr std::int64_t kBlock =
 
 constexpr std::int64_t block_count(std::int64_t n) { return (n + kBlock - 1) / kBlock; }
 
-// f(block, first, last) for every block, on up to `threads` threads. f must not throw and must only
-// write what belongs to its block.
+// f(block, first, last) for every block, by the threads of the team. f must not throw and must only write
+// what belongs to its block.
 template <class F>
-void for_blocks(int threads, std::int64_t n, const F& f) {
-  const std::int64_t blocks = block_count(n);
-  [[maybe_unused]] const int team = static_cast<int>(std::min<std::int64_t>(threads, blocks));
-#ifdef _OPENMP
-#pragma omp parallel for schedule(static) num_threads(team) if (team > 1)
-#endif
-  for (std::int64_t b = 0; b < blocks; ++b) {
-    f(b, b * kBlock, std::min(n, (b + 1) * kBlock));
-  }
+void for_blocks(ThreadTeam& team, std::int64_t n, const F& f) {
+  team.for_blocks(block_count(n),
+                  [&](std::int64_t b) { f(b, b * kBlock, std::min(n, (b + 1) * kBlock)); });
 }
 
 // K partial sums a block; allocated once.

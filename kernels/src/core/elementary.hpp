@@ -40,11 +40,15 @@ inline R reduce(const R& x, R& k) {
 }
 
 template <class R>
-[[gnu::noinline]] R expm1_wide(const R& x) {
+CLEAVE_INLINE R expm1_unreduced(const R& x) {
   R k;
   const R r = reduce(larger(smaller(x, R(709.0)), R(-50.0)), k);
   const R scale = power_of_two(k);
   return scale * expm1_reduced(r) + (scale - 1.0);
+}
+template <class R>
+[[gnu::noinline]] R expm1_wide(const R& x) {
+  return expm1_unreduced(x);
 }
 
 // e ln 2 + ln(1+f) + corrected - e kLn2Low, for sqrt(1/2) <= 1+f <= sqrt(2).
@@ -73,6 +77,12 @@ CLEAVE_INLINE R exponential_minus_one(const R& x) {
   // Here k = 0 below, which gives these bits.
   if (all(absolute(x) < 0.34)) return elementary::expm1_reduced(x);
   return elementary::expm1_wide(x);
+}
+
+// The same bits without a branch and a call, for arguments that are often not small.
+template <class R>
+CLEAVE_INLINE R exponential_minus_one_wide(const R& x) {
+  return elementary::expm1_unreduced(x);
 }
 
 // ln(1+x) with all digits for small x; x > -1 and 1+x normal and below 2^1022.

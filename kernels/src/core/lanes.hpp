@@ -6,104 +6,19 @@
 #pragma once
 
 #include <bit>
-#include <cmath>
-#include <cstdint>
-#include <cstring>
 #include <limits>
 
-#if defined(__SSE2__)
-#include <immintrin.h>
-#endif
-
-// For functions whose arguments would otherwise travel through memory.
-#define CLEAVE_INLINE [[gnu::always_inline]] inline
+#include "core/lane_register.hpp"
 
 namespace cleave {
-
-// Doubles in one register of the instruction set that this file is compiled for. A Pack of more lanes
-// is an array of registers: GCC 12 splits wider vector types into scalar code.
-#if defined(__AVX__)
-inline constexpr int kNativeLanes = 4;
-#else
-inline constexpr int kNativeLanes = 2;
-#endif
-
-// One register of N doubles. Masks are registers too, all bits of a lane set or none. By intrinsics:
-// GCC 12 turns comparisons and selections of its own vector types into scalar moves for SSE2.
-template <int N>
-struct Native {
-  typedef double Reals __attribute__((vector_size(8 * N)));
-  typedef std::int64_t Bits __attribute__((vector_size(8 * N)));
-
-  static Reals less(Reals a, Reals b) { return reinterpret_cast<Reals>(a < b); }
-  static Reals less_equal(Reals a, Reals b) { return reinterpret_cast<Reals>(a <= b); }
-  static Reals equal(Reals a, Reals b) { return reinterpret_cast<Reals>(a == b); }
-  static Reals both(Reals a, Reals b) {
-    return reinterpret_cast<Reals>(reinterpret_cast<Bits>(a) & reinterpret_cast<Bits>(b));
-  }
-  static Reals either(Reals a, Reals b) {
-    return reinterpret_cast<Reals>(reinterpret_cast<Bits>(a) | reinterpret_cast<Bits>(b));
-  }
-  static Reals without(Reals a, Reals b) {  // b where not a
-    return reinterpret_cast<Reals>(~reinterpret_cast<Bits>(a) & reinterpret_cast<Bits>(b));
-  }
-  static Reals root(Reals a) {
-    double lanes[N];
-    std::memcpy(lanes, &a, sizeof a);
-    for (double& x : lanes) x = std::sqrt(x);
-    std::memcpy(&a, lanes, sizeof a);
-    return a;
-  }
-  static bool any(Reals m) {
-    std::int64_t lanes[N], together = 0;
-    std::memcpy(lanes, &m, sizeof m);
-    for (const std::int64_t x : lanes) together |= x;
-    return together != 0;
-  }
-  static bool all(Reals m) { return !any(without(m, equal(Reals{}, Reals{}))); }
-};
-
-#if defined(__SSE2__)
-template <>
-struct Native<2> {
-  typedef __m128d Reals;
-  typedef __m128i Bits;
-  static Reals less(Reals a, Reals b) { return _mm_cmplt_pd(a, b); }
-  static Reals less_equal(Reals a, Reals b) { return _mm_cmple_pd(a, b); }
-  static Reals equal(Reals a, Reals b) { return _mm_cmpeq_pd(a, b); }
-  static Reals both(Reals a, Reals b) { return _mm_and_pd(a, b); }
-  static Reals either(Reals a, Reals b) { return _mm_or_pd(a, b); }
-  static Reals without(Reals a, Reals b) { return _mm_andnot_pd(a, b); }
-  static Reals root(Reals a) { return _mm_sqrt_pd(a); }
-  static bool any(Reals m) { return _mm_movemask_pd(m) != 0; }
-  static bool all(Reals m) { return _mm_movemask_pd(m) == 3; }
-};
-#endif
-#if defined(__AVX__)
-template <>
-struct Native<4> {
-  typedef __m256d Reals;
-  typedef __m256i Bits;
-  static Reals less(Reals a, Reals b) { return _mm256_cmp_pd(a, b, _CMP_LT_OS); }
-  static Reals less_equal(Reals a, Reals b) { return _mm256_cmp_pd(a, b, _CMP_LE_OS); }
-  static Reals equal(Reals a, Reals b) { return _mm256_cmp_pd(a, b, _CMP_EQ_OQ); }
-  static Reals both(Reals a, Reals b) { return _mm256_and_pd(a, b); }
-  static Reals either(Reals a, Reals b) { return _mm256_or_pd(a, b); }
-  static Reals without(Reals a, Reals b) { return _mm256_andnot_pd(a, b); }
-  static Reals root(Reals a) { return _mm256_sqrt_pd(a); }
-  static bool any(Reals m) { return _mm256_movemask_pd(m) != 0; }
-  static bool all(Reals m) { return _mm256_movemask_pd(m) == 15; }
-};
-#endif
 
 // N: lanes a register; part of the type, so that translation units for different instruction sets
 // do not share code.
 template <int W, int N = (W < kNativeLanes ? W : kNativeLanes)>
 struct Mask {
   static_assert(W % N == 0);
-  using Register = typename Native<N>::Reals;
   static constexpr int kRegisters = W / N;
-  Register r[kRegisters];
+  typename Native<N>::Flags r[kRegisters];
 };
 
 template <int W, int N = (W < kNativeLanes ? W : kNativeLanes)>
@@ -216,10 +131,9 @@ inline bool all(const Mask<W, N>& m) {
 inline double select(bool m, double a, double b) { return m ? a : b; }
 template <int W, int N>
 inline Pack<W, N> select(const Mask<W, N>& m, const Pack<W, N>& a, const Pack<W, N>& b) {
-  using Register = Native<N>;
   Pack<W, N> c;
   for (int k = 0; k < Pack<W, N>::kRegisters; ++k)
-    c.r[k] = Register::either(Register::both(m.r[k], a.r[k]), Register::without(m.r[k], b.r[k]));
+    c.r[k] = Native<N>::choose(m.r[k], a.r[k], b.r[k]);
   return c;
 }
 
@@ -231,9 +145,7 @@ inline double lane(const Pack<W, N>& a, int l) {
 }
 template <int W, int N>
 inline bool lane(const Mask<W, N>& m, int l) {
-  std::int64_t bits;
-  std::memcpy(&bits, reinterpret_cast<const char*>(&m) + 8 * l, sizeof bits);
-  return bits != 0;
+  return Native<N>::flag(m.r[l / N], l % N);
 }
 inline void set_lane(double& x, int, double value) { x = value; }
 inline void set_lane(bool& m, int, bool value) { m = value; }
@@ -243,8 +155,7 @@ inline void set_lane(Pack<W, N>& a, int l, double value) {
 }
 template <int W, int N>
 inline void set_lane(Mask<W, N>& m, int l, bool value) {
-  const std::int64_t bits = value ? -1 : 0;
-  std::memcpy(reinterpret_cast<char*>(&m) + 8 * l, &bits, sizeof bits);
+  Native<N>::set_flag(m.r[l / N], l % N, value);
 }
 
 inline double square_root(double x) { return std::sqrt(x); }
@@ -259,8 +170,7 @@ inline double absolute(double x) { return std::fabs(x); }
 template <int W, int N>
 inline Pack<W, N> absolute(const Pack<W, N>& a) {
   Pack<W, N> c;
-  const Pack<W, N> sign(-0.0);
-  for (int k = 0; k < Pack<W, N>::kRegisters; ++k) c.r[k] = Native<N>::without(sign.r[k], a.r[k]);
+  for (int k = 0; k < Pack<W, N>::kRegisters; ++k) c.r[k] = Native<N>::absolute(a.r[k]);
   return c;
 }
 
@@ -270,6 +180,41 @@ inline bool except(bool a, bool b) { return a && !b; }
 template <class R>
 inline MaskOf<R> is_finite(const R& x) {
   return except(equal(x, x), equal(absolute(x), R(std::numeric_limits<double>::infinity())));
+}
+
+// The bits of both, for the two questions below about several numbers at once. Integer operations:
+// nothing raises a flag, whatever the bits are.
+inline double join_bits(double a, double b) {
+  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(a) | std::bit_cast<std::uint64_t>(b));
+}
+template <int W, int N>
+inline Pack<W, N> join_bits(const Pack<W, N>& a, const Pack<W, N>& b) {
+  Pack<W, N> c;
+  for (int k = 0; k < Pack<W, N>::kRegisters; ++k) c.r[k] = Native<N>::join(a.r[k], b.r[k]);
+  return c;
+}
+inline bool any_bit(double a, std::int64_t bits) {
+  return (std::bit_cast<std::int64_t>(a) & bits) != 0;
+}
+template <int W, int N>
+inline bool any_bit(const Pack<W, N>& a, std::int64_t bits) {
+  auto together = a.r[0];
+  for (int k = 1; k < Pack<W, N>::kRegisters; ++k) together = Native<N>::join(together, a.r[k]);
+  return Native<N>::any_bit(together, bits);
+}
+// Whether one of the joined numbers, in any lane, is not below 2 in size (infinite and NaN: yes).
+template <class R>
+inline bool any_reaches_two(const R& joined) {
+  return any_bit(joined, std::int64_t{1} << 62);
+}
+// Whether one is not +0.
+template <class R>
+inline bool any_not_zero(const R& joined) {
+  return any_bit(joined, -1);
+}
+template <class R>
+inline bool any_negative(const R& x) {
+  return any_bit(x, std::numeric_limits<std::int64_t>::min());
 }
 
 // The nearest integer of |x| < 2^51, ties to even.
@@ -339,13 +284,20 @@ inline void store_lanes(const R& a, double* base, std::int64_t stride) {
   }
 }
 
-template <class R>
-inline R smaller(const R& a, const R& b) {
-  return select(a < b, a, b);
+// a where a < b, else b; and a where a > b, else b.
+inline double smaller(double a, double b) { return a < b ? a : b; }
+inline double larger(double a, double b) { return a > b ? a : b; }
+template <int W, int N>
+inline Pack<W, N> smaller(const Pack<W, N>& a, const Pack<W, N>& b) {
+  Pack<W, N> c;
+  for (int k = 0; k < Pack<W, N>::kRegisters; ++k) c.r[k] = Native<N>::smaller(a.r[k], b.r[k]);
+  return c;
 }
-template <class R>
-inline R larger(const R& a, const R& b) {
-  return select(a > b, a, b);
+template <int W, int N>
+inline Pack<W, N> larger(const Pack<W, N>& a, const Pack<W, N>& b) {
+  Pack<W, N> c;
+  for (int k = 0; k < Pack<W, N>::kRegisters; ++k) c.r[k] = Native<N>::larger(a.r[k], b.r[k]);
+  return c;
 }
 
 }  // namespace cleave

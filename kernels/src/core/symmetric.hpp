@@ -102,16 +102,44 @@ inline Full<R> compose(const Full<R>& h, const Symmetric<R>& z) {
           h.zz + (z.zz + ((h.zx * z.zx + h.zy * z.yz) + h.zz * z.zz))};
 }
 
+template <class R>
+inline R join_bits(const Symmetric<R>& s) {
+  return join_bits(join_bits(join_bits(s.xx, s.yy), join_bits(s.zz, s.xy)), join_bits(s.yz, s.zx));
+}
+template <class R>
+inline R join_bits(const Full<R>& t) {
+  return join_bits(join_bits(join_bits(join_bits(t.xx, t.xy), join_bits(t.xz, t.yx)),
+                             join_bits(join_bits(t.yy, t.yz), join_bits(t.zx, t.zy))),
+                   t.zz);
+}
+
 // F (I+Z) F^T - I, without forming anything near I: [K + H^T + K H^T] with K = compose(H, Z).
 template <class R>
-inline Symmetric<R> push_forward_minus_identity(const Full<R>& h, const Symmetric<R>& z) {
-  const Full<R> k = compose(h, z);
+CLEAVE_INLINE Symmetric<R> push_forward_minus_identity(const Full<R>& h, const Symmetric<R>& z) {
+  Full<R> k;
+  if (any_not_zero(join_bits(z))) {
+    k = compose(h, z);
+  } else {  // the same bits: the sum turns -0 to +0
+    k = {h.xx + 0.0, h.xy + 0.0, h.xz + 0.0, h.yx + 0.0, h.yy + 0.0,
+         h.yz + 0.0, h.zx + 0.0, h.zy + 0.0, h.zz + 0.0};
+  }
   return {k.xx + (h.xx + ((k.xx * h.xx + k.xy * h.xy) + k.xz * h.xz)),
           k.yy + (h.yy + ((k.yx * h.yx + k.yy * h.yy) + k.yz * h.yz)),
           k.zz + (h.zz + ((k.zx * h.zx + k.zy * h.zy) + k.zz * h.zz)),
           k.xy + (h.yx + ((k.xx * h.yx + k.xy * h.yy) + k.xz * h.yz)),
           k.yz + (h.zy + ((k.yx * h.zx + k.yy * h.zy) + k.yz * h.zz)),
           k.zx + (h.xz + ((k.zx * h.xx + k.zy * h.xy) + k.zz * h.xz))};
+}
+
+// (F^T F - I)/2 of F = I + H, with all digits for small H.
+template <class R>
+inline Symmetric<R> green_lagrange(const Full<R>& h) {
+  return {h.xx + 0.5 * ((h.xx * h.xx + h.yx * h.yx) + h.zx * h.zx),
+          h.yy + 0.5 * ((h.xy * h.xy + h.yy * h.yy) + h.zy * h.zy),
+          h.zz + 0.5 * ((h.xz * h.xz + h.yz * h.yz) + h.zz * h.zz),
+          0.5 * ((h.xy + h.yx) + ((h.xx * h.xy + h.yx * h.yy) + h.zx * h.zy)),
+          0.5 * ((h.yz + h.zy) + ((h.xy * h.xz + h.yy * h.yz) + h.zy * h.zz)),
+          0.5 * ((h.zx + h.xz) + ((h.xz * h.xx + h.yz * h.yx) + h.zz * h.zx))};
 }
 
 // A S
@@ -145,9 +173,13 @@ inline Symmetric<R> pull_back(const Full<R>& a, const Symmetric<R>& s) {
 // cof F and det F - 1 of F = I + H; the latter without the cancellation of det F - 1.
 template <class R>
 struct Cofactor {
-  Full<R> cofactor;
-  R volume_change;
+  Full<R> cofactor{R(1.0), R(0.0), R(0.0), R(0.0), R(1.0), R(0.0), R(0.0), R(0.0), R(1.0)};
+  R volume_change{0.0};
 };
+template <class R>
+inline Cofactor<R> select(const MaskOf<R>& m, const Cofactor<R>& a, const Cofactor<R>& b) {
+  return {select(m, a.cofactor, b.cofactor), select(m, a.volume_change, b.volume_change)};
+}
 template <class R>
 inline Cofactor<R> cofactor_of(const Full<R>& h) {
   const R fx = 1.0 + h.xx, fy = 1.0 + h.yy, fz = 1.0 + h.zz;

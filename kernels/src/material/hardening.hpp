@@ -8,9 +8,10 @@
 //   lower_bound(e)               of the yield stress, cheap; 0 is allowed
 //   start(e, memory, setting)    what is known before the flow: at least `yield` and `slope`
 //   first_guess(start, phi, 3G)  of the increment x, not beyond the root if h is concave
-//   kSmooth, curvature(start)    whether h'' exists, and then a bound of |h''| from e on [Pa]
+//   kSmooth, bend(start, x, slope), third(start)  whether h''' exists, and then h''(e+x), given h'(e+x), and
+//                                a bound of |h'''| from e on [Pa]
 //   advance(start, x, rise, slope)  h(e+x) - h(e) without cancellation, and h'(e+x)
-//   work(start, x)               int of the yield stress from e to e+x [Pa]
+//   work(start, x, rise)         int of the yield stress from e to e+x [Pa], given h(e+x) - h(e)
 //   finish(start, x, flow, memory)  what the flow makes of the memory
 //   kCauchy                      whether the yield stress is J times a function of the strain, rate and
 //                                memory, with J = setting.volume_ratio; lower_bound is without J
@@ -26,16 +27,9 @@
 #include "core/error.hpp"
 #include "core/field.hpp"
 #include "core/parameter.hpp"
+#include "material/lane_point.hpp"
 
 namespace cleave {
-
-// The step as a point sees it.
-template <class R>
-struct Setting {
-  double dt = 0;        // [s]; 0: no rates
-  R length{0.0};        // [m]
-  R volume_ratio{1.0};  // J at the end of the step
-};
 
 // What a step of plastic flow was: for temperature and damage.
 template <class R>
@@ -72,12 +66,17 @@ class VoceHardening : public RateIndependent {
   };
 
   explicit VoceHardening(std::span<const double> p)
-      : initial_(p[0]), range_(p[1] - p[0]), linear_(p[2]), alpha_(p[3]) {}
+      : initial_(p[0]),
+        range_(p[1] - p[0]),
+        fall_(std::min(p[1] - p[0], 0.0)),
+        linear_(p[2]),
+        alpha_(p[3]),
+        inverse_alpha_(p[3] > 0 ? 1 / p[3] : 0.0) {}
 
   double least_slope() const { return linear_ + std::min(0.0, range_ * alpha_); }
   template <class R, class M>
   R lower_bound(const R& e, const M&) const {
-    return (initial_ + linear_ * e) + std::min(range_, 0.0);
+    return (initial_ + linear_ * e) + fall_;
   }
 
   template <class R>
@@ -86,18 +85,22 @@ class VoceHardening : public RateIndependent {
     R rest;  // (tau_inf - tau_y0) exp(-alpha e)
   };
   template <class R>
-  R curvature(const Start<R>& s) const {
-    return alpha_ * alpha_ * absolute(s.rest);
+  R bend(const Start<R>&, const R&, const R& slope) const {
+    return alpha_ * (linear_ - slope);
+  }
+  template <class R>
+  R third(const Start<R>& s) const {
+    return (alpha_ * alpha_ * alpha_) * absolute(s.rest);
   }
   // The root of r with h'' kept to second order.
   template <class R>
   R first_guess(const Start<R>& s, const R& phi, double three_g) const {
     const R inverse = 1.0 / (three_g + s.slope), x = phi * inverse;
-    return x + x * x * (0.5 * alpha_ * alpha_) * s.rest * inverse;
+    return x + (x * x) * (0.5 * alpha_ * alpha_) * (s.rest * inverse);
   }
   template <class R, class M>
   Start<R> start(const R& e, const M&, const Setting<R>&) const {
-    const R decay = exponential_minus_one(-alpha_ * e), rest = range_ * (1.0 + decay);
+    const R decay = exponential_minus_one_wide(-alpha_ * e), rest = range_ * (1.0 + decay);
     return {e, (initial_ + linear_ * e) - range_ * decay, linear_ + alpha_ * rest, rest};
   }
   template <class R>
@@ -107,14 +110,17 @@ class VoceHardening : public RateIndependent {
     slope = linear_ + alpha_ * (s.rest * (1.0 + decay));
   }
   template <class R>
-  R work(const Start<R>& s, const R& x) const {
+  R work(const Start<R>& s, const R& x, const R& rise) const {
     const R flat = (initial_ + linear_ * (s.strain + 0.5 * x)) * x;
     if (!(alpha_ > 0)) return flat;
-    return flat + (range_ * x + s.rest * (exponential_minus_one(-alpha_ * x) / alpha_));
+    // rest (exp(-alpha x) - 1), from the rise where its cancellation is no loss beside the initial stress
+    const R rest = linear_ <= alpha_ * initial_ ? linear_ * x - rise
+                                                : s.rest * exponential_minus_one(-alpha_ * x);
+    return flat + (range_ * x + rest * inverse_alpha_);
   }
 
  private:
-  double initial_, range_, linear_, alpha_;
+  double initial_, range_, fall_, linear_, alpha_, inverse_alpha_;
 };
 
 // Power law:  tau_y = tau_y0 (1 + e/eps_0)^n.
@@ -141,8 +147,12 @@ class PowerHardening : public RateIndependent {
     R yield, slope, base;  // base = eps_0 + e
   };
   template <class R>
-  R curvature(const Start<R>& s) const {
-    return (1 - exponent_) * s.slope / s.base;
+  R bend(const Start<R>& s, const R& x, const R& slope) const {
+    return (exponent_ - 1) * slope / (s.base + x);
+  }
+  template <class R>
+  R third(const Start<R>& s) const {
+    return ((1 - exponent_) * (2 - exponent_)) * s.slope / (s.base * s.base);
   }
   template <class R, class M>
   Start<R> start(const R& e, const M&, const Setting<R>&) const {
@@ -159,9 +169,8 @@ class PowerHardening : public RateIndependent {
     slope = exponent_ * s.yield * (1.0 + growth) / (s.base + x);
   }
   template <class R>
-  R work(const Start<R>& s, const R& x) const {
-    const double m = exponent_ + 1;
-    return s.yield * s.base * (exponential_minus_one(m * log_one_plus(x / s.base)) / m);
+  R work(const Start<R>& s, const R& x, const R& rise) const {
+    return (s.yield * x + rise * (s.base + x)) / (exponent_ + 1);
   }
 
  private:

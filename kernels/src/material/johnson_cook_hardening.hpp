@@ -125,7 +125,7 @@ class JohnsonCookHardening {
   }
   // int (A + B e^n) times the other factors, which hold for the whole step.
   template <class R>
-  R work(const Start<R>& s, const R& x) const {
+  R work(const Start<R>& s, const R& x, const R&) const {
     const double k = exponent_ + 1;
     const R work = initial_ * x + power_rise(s, x, k, s.hardened * s.strain) / k;
     return s.scale * (work * (1.0 + coefficient_ * log_rate(s, x))) + s.release;

@@ -10,8 +10,7 @@
 #include "core/field.hpp"
 #include "core/parameter.hpp"
 #include "core/tangent.hpp"
-#include "core/tensor.hpp"
-#include "material/kinematics.hpp"
+#include "material/lane_point.hpp"
 
 namespace cleave {
 
@@ -39,22 +38,26 @@ class LinearElastic {
   double shear_modulus() const { return mu_; }
   double wave_speed() const { return std::sqrt((lambda_ + 2 * mu_) / density_); }
 
+  static constexpr int kLaneHistory = 0;
+  static constexpr bool kUsesLength = false;
+  bool in_lanes() const { return true; }
+
   // sigma = lambda tr(eps) I + 2 mu eps                                              [LE 1]
+  template <class R>
+  CLEAVE_INLINE void update(LanePoint<R, 0>& point, const Setting<R>&) const {
+    const Full<R>& h = point.h;
+    const Symmetric<R> e = {
+        h.xx, h.yy, h.zz, 0.5 * (h.xy + h.yx), 0.5 * (h.yz + h.zy), 0.5 * (h.zx + h.xz)};
+    const R sum = trace(e);
+    const Symmetric<R> s = plus_spherical(scaled(R(2 * mu_), e), lambda_ * sum);
+    point.p = {s.xx, s.xy, s.zx, s.xy, s.yy, s.yz, s.zx, s.yz, s.zz};
+    if (kinematics_ == CLEAVE_PLANE_STRESS) point.p.zz = R(0.0);
+    point.energy = (0.5 * lambda_) * (sum * sum) + mu_ * squared_norm(e);
+    point.valid = R(0.0) <= R(0.0);
+  }
   template <int D>
   Response<Mat<D>> respond(const Mat<D>& h, const History&, const Increment&) const {
-    Mat<D> e;
-    double trace = 0;
-    for (int i = 0; i < D; ++i) {
-      trace += h(i, i);
-      for (int j = 0; j < D; ++j) e(i, j) = 0.5 * (h(i, j) + h(j, i));
-    }
-    Response<Mat<D>> r;
-    for (int i = 0; i < D; ++i)
-      for (int j = 0; j < D; ++j)
-        r.stress(i, j) = 2 * mu_ * e(i, j) + (i == j ? lambda_ * trace : 0.0);
-    r.stress_33 = kinematics_ == CLEAVE_PLANE_STRAIN ? lambda_ * trace : 0.0;
-    r.energy = 0.5 * lambda_ * trace * trace + mu_ * contract(e, e);
-    return r;
+    return respond_by_update<D>(*this, embed(h), {});
   }
 
   template <int D>

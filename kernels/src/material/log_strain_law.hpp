@@ -35,7 +35,8 @@ class LogStrainLaw {
           point_history("thickness_strain", 1, "1", false, "F33 - 1 in plane stress; else 0"),
       });
   static constexpr const char* kDamage = Hardening::kDamage;
-  static constexpr int kLaneHistory = Mapping::kHistory + 1;
+  // Without the thickness strain, which is 0 in lanes.
+  static constexpr int kLaneHistory = Mapping::kHistory;
   static constexpr bool kUsesLength = Bulk::kUsesLength;
 
   LogStrainLaw(std::span<const double> p, Kinematics kinematics)
@@ -65,14 +66,14 @@ class LogStrainLaw {
   // Plane stress has an outer iteration and is done point by point.
   bool in_lanes() const { return kinematics_ != CLEAVE_PLANE_STRESS; }
   template <class R>
-  void update(LanePoint<R, kLaneHistory>& point, const Setting<R>& setting) const {
+  CLEAVE_INLINE void update(LanePoint<R, kLaneHistory>& point, const Setting<R>& setting) const {
     mapping_.update(point, setting);
   }
 
   template <int D>
   Response<Mat<D>> respond(const Mat<D>& h, const History& history,
                            const Increment& increment) const {
-    LanePoint<double, kLaneHistory> point = read(h, history);
+    OnePoint point = read(h, history);
     const Setting<double> setting{increment.dt, increment.length};
     Response<Mat<D>> r;
     r.valid = in_lanes() || find_thickness(point, setting);
@@ -93,7 +94,7 @@ class LogStrainLaw {
   template <int D>
   bool tangent(const Mat<D>& h, const History& committed, const Increment& increment,
                Tangent<D>& a) const requires Bulk::kFollowsVolume {
-    LanePoint<double, kLaneHistory> point = read(h, committed);
+    OnePoint point = read(h, committed);
     const Setting<double> setting{increment.dt, increment.length};
     if (!in_lanes() && !find_thickness(point, setting)) return false;
     SpectralModuli moduli;
@@ -118,6 +119,8 @@ class LogStrainLaw {
   }
 
  private:
+  using OnePoint = LanePoint<double, kLaneHistory + 1>;  // with the thickness strain
+
   static Hardening make_hardening(std::span<const double> p, double density) {
     if constexpr (std::is_constructible_v<Hardening, std::span<const double>, double>) {
       return Hardening(p, density);
@@ -133,25 +136,24 @@ class LogStrainLaw {
       for (int c = 0; c < kHistory[k].components; ++c) f(place++, history.variable[k][c]);
   }
   template <int D>
-  static LanePoint<double, kLaneHistory> read(const Mat<D>& h, const History& history) {
-    LanePoint<double, kLaneHistory> point{};
+  static OnePoint read(const Mat<D>& h, const History& history) {
+    OnePoint point{};
     point.h = embed(h);
     each_component(history, [&](std::size_t place, double x) { point.history[place] = x; });
     return point;
   }
-  static void write(const LanePoint<double, kLaneHistory>& point, const History& history) {
+  static void write(const OnePoint& point, const History& history) {
     each_component(history, [&](std::size_t place, double& x) { x = point.history[place]; });
   }
 
-  bool find_thickness(LanePoint<double, kLaneHistory>& point,
-                      const Setting<double>& setting) const {
+  bool find_thickness(OnePoint& point, const Setting<double>& setting) const {
     double size = 0;  // a sum, no maximum: comparing a NaN would raise a flag
     for (const double x : {point.h.xx, point.h.xy, point.h.yx, point.h.yy}) size += std::fabs(x);
     for (std::size_t k = 0; k < 6; ++k) size += std::fabs(point.history[k]);
-    double& thickness = point.history[kLaneHistory - 1];
+    double& thickness = point.history[kLaneHistory];
     double h33 = thickness;
     const auto trial = [&](double guess) {
-      LanePoint<double, kLaneHistory> at = point;
+      OnePoint at = point;
       at.h.zz = guess;
       SpectralModuli moduli;
       ThicknessTrial t;

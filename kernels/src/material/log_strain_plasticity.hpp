@@ -81,6 +81,7 @@ class ReturnMapping {
 
   ReturnMapping(double shear_modulus, const Hardening& hardening, const Bulk& bulk)
       : shear_(shear_modulus),
+        inverse_shear_(1 / shear_modulus),
         bracket_((1 + 1e-15) / (3 * shear_ + std::min(0.0, hardening.least_slope()))),
         hardening_(hardening),
         bulk_(bulk) {
@@ -97,10 +98,10 @@ class ReturnMapping {
   // The history array may be longer than kHistory; what follows is left alone.
   template <class R, int kComponents>
   CLEAVE_INLINE void update(LanePoint<R, kComponents>& point, const Setting<R>& setting) const {
-    point.valid = admissible(point);
+    const Cofactor<R> c = admit(point);
     auto& history = point.history;
+    point.unchanged = kHistory == 7;
     const Symmetric<R> z = metric(history);
-    const Cofactor<R> c = cofactor_of(point.h);
     const R ratio = 1.0 + c.volume_change, inverse = 1.0 / ratio;
     Setting<R> here = setting;
     here.volume_ratio = ratio;
@@ -108,7 +109,7 @@ class ReturnMapping {
     Symmetric<R> d = log_of(y, c.volume_change, kLargestLogStretch, point.valid);
     const R twice_t = trace(d);
     d = plus_spherical(d, twice_t * (-1.0 / 3));
-    const R dd = squared_norm(d), equivalent = shear_ * square_root(1.5 * dd);
+    const R dd = squared_norm(d);
 
     R theta(1.0);
     point.plastic = R(0.0);
@@ -117,17 +118,12 @@ class ReturnMapping {
     R bound = hardening_.lower_bound(strain, memory);
     if constexpr (Hardening::kCauchy) bound = bound * ratio;
     Flowing<R> flow{};
-    if (any(equivalent > bound)) {
-      flow = flow_of(strain, memory, here, equivalent);
-      if (any(flow.active)) {
-        point.valid = point.valid & flow.converged;
-        theta = flow.theta;
-        point.plastic = flow.work;
-        history[6] = select(flow.active, strain + flow.increment, strain);
-        const Symmetric<R> e = expm1_of(scaled(-flow.removed, d));
-        const Symmetric<R> change = pull_back(c.cofactor, e + commuting_product(y, e));
-        set_metric(history, select(flow.active, z + scaled(inverse * inverse, change), z));
-      }
+    // Squares, relative to the modulus, spare the root where nothing flows; kBelow: their rounding.
+    const R ratio_of_bound = (kBelow * inverse_shear_) * bound;
+    if (any(1.5 * dd > ratio_of_bound * ratio_of_bound)) {
+      flow = flow_of(strain, memory, here, shear_ * square_root(1.5 * dd));
+      if (any(flow.active)) advance_metric(point, flow, c, y, d);
+      theta = flow.theta;
     }
     const R shear_energy = (0.25 * shear_) * (theta * theta * dd);
     std::array<R, kBulkMemory> bulk_memory = part<1>(history);
@@ -144,6 +140,24 @@ class ReturnMapping {
       finish(flow, Flow<R>{flow.work, spherical.stress, flow.yield, ratio, shear_energy}, memory);
     set_part<0>(history, memory);
     set_part<1>(history, bulk_memory);
+  }
+
+  // Z, eps_p and the work of a step in which some lanes flow.
+  template <class R, int kComponents, class F>
+  CLEAVE_INLINE static void advance_metric(LanePoint<R, kComponents>& point, const F& flow,
+                                           const Cofactor<R>& c, const Symmetric<R>& y,
+                                           const Symmetric<R>& d) {
+    auto& history = point.history;
+    point.valid = point.valid & flow.converged;
+    point.plastic = flow.work;
+    point.unchanged = false;
+    history[6] = select(flow.active, history[6] + flow.increment, history[6]);
+    const Symmetric<R> e = expm1_of_deviator(scaled(-flow.removed, d));
+    const R inverse = 1.0 / (1.0 + c.volume_change);
+    const Symmetric<R> change =
+        scaled(inverse * inverse, pull_back(c.cofactor, e + commuting_product(y, e)));
+    const Symmetric<R> z = metric(history);
+    set_metric(history, select(flow.active, z + change, z));
   }
 
   double shear_modulus() const { return shear_; }
@@ -175,26 +189,40 @@ class ReturnMapping {
     const R inverse = 1.0 / safe;
     f.theta = select(f.active, f.yield * inverse, R(1.0));
     f.removed = select(f.active, (3 * shear_) * f.increment * inverse, R(0.0));
-    f.work = select(f.active, hardening_.work(f.start, f.increment), R(0.0));
+    f.work = select(f.active, hardening_.work(f.start, f.increment, rise), R(0.0));
     return f;
   }
 
  private:
-  // Clears lanes that nothing may be computed with, so that no operation traps.
+  // Sets `valid`, and clears lanes that nothing may be computed with, so that no operation traps.
   template <class R, int kComponents>
-  CLEAVE_INLINE static MaskOf<R> admissible(LanePoint<R, kComponents>& point) {
-    const Full<R>& h = point.h;
-    R size = ((absolute(h.xx) + absolute(h.xy)) + (absolute(h.xz) + absolute(h.yx))) +
-             ((absolute(h.yy) + absolute(h.yz)) + (absolute(h.zx) + absolute(h.zy))) +
-             absolute(h.zz);
+  CLEAVE_INLINE static Cofactor<R> admit(LanePoint<R, kComponents>& point) {
+    point.valid = R(0.0) <= R(0.0);
+    if (!plain(point)) refuse_extreme(point);
+    return upright_cofactor(point.h, point.valid);
+  }
+  // Whether all is small and of the right sign in all lanes: the common case, found without arithmetic.
+  template <class R, int kComponents>
+  CLEAVE_INLINE static bool plain(const LanePoint<R, kComponents>& point) {
+    const R joined = join_bits(join_bits(point.h), join_bits(metric(point.history)));
+    const R strain = point.history[6];
+    if (any_reaches_two(join_bits(joined, strain)) || any_negative(strain)) return false;
+    if constexpr (kHistory == 7) return true;
+    R others(0.0);
+    for (std::size_t k = 7; k < kHistory; ++k) others = others + absolute(point.history[k]);
+    return all(is_finite(others)) && all(others < 0.5 * kLargestInput);
+  }
+  template <class R, int kComponents>
+  [[gnu::noinline]] static void refuse_extreme(LanePoint<R, kComponents>& point) {
+    R size = sum_of_sizes(point.h);
     for (std::size_t k = 0; k < kHistory; ++k) size = size + absolute(point.history[k]);
-    MaskOf<R> valid = is_finite(size);
-    if (!all(valid)) clear(point, valid), size = select(valid, size, R(0.0));
-    valid = valid & (point.history[6] >= 0.0) & (size < kLargestInput);
-    if (!all(valid)) clear(point, valid);
-    const MaskOf<R> upright = cofactor_of(point.h).volume_change > -1.0;
-    if (!all(upright)) clear(point, upright);
-    return valid & upright;
+    point.valid = is_finite(size);
+    if (!all(point.valid)) {
+      clear(point, point.valid);
+      size = select(point.valid, size, R(0.0));
+    }
+    point.valid = point.valid & (point.history[6] >= 0.0) & (size < kLargestInput);
+    if (!all(point.valid)) clear(point, point.valid);
   }
   template <class R, int kComponents>
   [[gnu::noinline, gnu::cold]] static void clear(LanePoint<R, kComponents>& point,
@@ -204,9 +232,9 @@ class ReturnMapping {
       point.history[k] = select(keep, point.history[k], R(0.0));
   }
 
-  // r(x) = phi* - 3 G x - (h(e+x) - h(e)) = 0 by Newton inside a bracket. A lane stops for itself: at
-  // a residual or step of the size of round-off, or (smooth h) when the step now taken leaves a
-  // residual h'' step^2 / 2 of that size, which needs no other evaluation.
+  // r(x) = phi* - 3 G x - (h(e+x) - h(e)) = 0 inside a bracket, by Newton's method, for smooth h by
+  // Halley's. A lane stops for itself: at a residual or step of the size of round-off, or (smooth h) when
+  // the step now taken leaves a residual of that size, which needs no other evaluation.
   template <class R>
   CLEAVE_INLINE void solve(const R& phi, Flowing<R>& f, R& rise) const {
     const double three_g = 3 * shear_;
@@ -219,18 +247,24 @@ class ReturnMapping {
       rise = select(f.converged, rise, rise_here);
       f.slope = select(f.converged, f.slope, slope_here);
       const R r = (phi - three_g * x) - rise;
-      const MaskOf<R> too_small = r > 0.0;
-      low = select(too_small, x, low);
-      high = select(too_small, high, x);
-      const R step = r / (three_g + f.slope);
-      R next = x + step;
+      const R inverse = 1.0 / (three_g + f.slope);
+      R step = r * inverse;
       if constexpr (Hardening::kSmooth) {
-        const R left = hardening_.curvature(f.start) * (step * step);
-        const MaskOf<R> last = (left <= kStepResidual * phi) & !f.converged;
-        x = select(last, next, x);
-        rise = select(last, rise + f.slope * step, rise);
+        const R bend = hardening_.bend(f.start, x, f.slope), size = absolute(step);
+        // What terms of third order leave of r: of the series of h, and of that of the step.
+        const R cubic = hardening_.third(f.start) * (1.0 / 6) + 0.5 * (bend * bend) * inverse;
+        step = step - 0.5 * (bend * inverse) * (step * step);
+        const MaskOf<R> last = (cubic * (size * size * size) <= kStepResidual * phi) & !f.converged;
+        rise = select(last, rise + step * (f.slope + 0.5 * bend * step), rise);
+        f.slope = select(last, f.slope + bend * step, f.slope);
+        x = select(last, x + step, x);
         f.converged = f.converged | last;
+        if (all(f.converged)) break;
       }
+      const MaskOf<R> too_small = r > 0.0;
+      low = select(too_small & !f.converged, x, low);
+      high = select(too_small | f.converged, high, x);
+      R next = x + step;
       f.converged = f.converged | (absolute(r) <= kReturnResidual * phi) |
                     (absolute(step) <= kReturnBracket * x) | (high - low <= kReturnBracket * x);
       if (all(f.converged) || n == kReturnIterations) break;
@@ -281,7 +315,8 @@ class ReturnMapping {
     v[5] = z.zx;
   }
 
-  double shear_;
+  static constexpr double kBelow = 1 - 1e-12;
+  double shear_, inverse_shear_;
   double bracket_;  // the root is below this times phi*
   Hardening hardening_;
   Bulk bulk_;

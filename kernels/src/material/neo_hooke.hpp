@@ -20,14 +20,16 @@
 
 namespace cleave {
 
-// x - ln(1+x) > 0 with all digits for small x, x > -1.
-inline double minus_log_one_plus(double x) {
-  if (!(std::fabs(x) < 0.25)) return x - log_one_plus(x);
+// x - ln(1+x) > 0 with all digits for small x, x > -1; given ln(1+x).
+template <class R>
+CLEAVE_INLINE R minus_log_one_plus(const R& x, const R& logarithm) {
+  const MaskOf<R> near = absolute(x) < 0.25;
+  if (!any(near)) return x - logarithm;
   // x - 2 artanh s with s = x/(2+x), and x - 2s = s x; |s| < 0.15
-  const double s = x / (2 + x), z = s * s;
-  double tail = 2.0 / 21;
+  const R small = select(near, x, R(0.0)), s = small / (2.0 + small), z = s * s;
+  R tail(2.0 / 21);
   for (int n = 19; n >= 3; n -= 2) tail = 2.0 / n + z * tail;
-  return s * (x - z * tail);
+  return select(near, s * (small - z * tail), x - logarithm);
 }
 
 class NeoHooke {
@@ -57,26 +59,38 @@ class NeoHooke {
     return std::sqrt(modulus / density_);
   }
 
+  static constexpr int kLaneHistory = 0;
+  static constexpr bool kUsesLength = false;
+  // Plane stress has an outer iteration and is done point by point.
+  bool in_lanes() const { return kinematics_ != CLEAVE_PLANE_STRESS; }
+
   // Invalid where det F <= 0 or F is not finite.
+  template <class R>
+  CLEAVE_INLINE void update(LanePoint<R, 0>& point, const Setting<R>&) const {
+    point.valid = R(0.0) <= R(0.0);
+    if (any_reaches_two(join_bits(point.h))) refuse_extreme(point);
+    Full<R>& h = point.h;
+    const State<R> s = state_of(h, upright_cofactor(h, point.valid));
+    point.p = multiply(scaled(1.0 / s.ratio, s.tau), s.cofactor);
+    // tr B - 3 - 2 ln J = |H|^2 - 2 (J-1 - tr H) + 2 (J-1 - ln J)
+    const R second =
+        ((h.xx * h.yy - h.xy * h.yx) + (h.yy * h.zz - h.yz * h.zy)) + (h.zz * h.xx - h.zx * h.xz);
+    const R third = (h.xx * (h.yy * h.zz - h.yz * h.zy) - h.xy * (h.yx * h.zz - h.yz * h.zx)) +
+                    h.xz * (h.yx * h.zy - h.yy * h.zx);
+    point.energy = mu_ * ((0.5 * squared_norm(h) - (second + third)) +
+                          minus_log_one_plus(s.change, s.log_ratio)) +
+                   (0.5 * lambda_) * (s.log_ratio * s.log_ratio);
+  }
   template <int D>
   Response<Mat<D>> respond(const Mat<D>& h, const History&, const Increment&) const {
-    Response<Mat<D>> r;
     Full<double> full = embed(h);
-    r.valid = admissible(full);
-    if (!r.valid) return r;
-    const State s = state_of(full);
-    r.stress = extract<D>(multiply(scaled(1 / s.ratio, s.tau), s.cofactor));
-    r.stress_33 = kinematics_ == CLEAVE_PLANE_STRAIN ? s.tau.zz : 0.0;  // F33 = 1
-    // tr B - 3 - 2 ln J = |H|^2 - 2 (J-1 - tr H) + 2 (J-1 - ln J)
-    const double second = (full.xx * full.yy - full.xy * full.yx) +
-                          (full.yy * full.zz - full.yz * full.zy) +
-                          (full.zz * full.xx - full.zx * full.xz);
-    const double third = full.xx * (full.yy * full.zz - full.yz * full.zy) -
-                         full.xy * (full.yx * full.zz - full.yz * full.zx) +
-                         full.xz * (full.yx * full.zy - full.yy * full.zx);
-    r.energy =
-        mu_ * ((0.5 * squared_norm(full) - (second + third)) + minus_log_one_plus(s.change)) +
-        0.5 * lambda_ * s.log_ratio * s.log_ratio;
+    if (!in_lanes() && !find_thickness(full)) {
+      Response<Mat<D>> none;
+      none.valid = false;
+      return none;
+    }
+    Response<Mat<D>> r = respond_by_update<D>(*this, full, {});
+    if (!in_lanes()) r.stress_33 = 0;  // what the iteration leaves
     return r;
   }
 
@@ -85,7 +99,7 @@ class NeoHooke {
   bool tangent(const Mat<D>& h, const History&, const Increment&, Tangent<D>& a) const {
     Full<double> full = embed(h);
     if (!admissible(full)) return false;
-    const State s = state_of(full);
+    const State<double> s = state_of(full, cofactor_of(full));
     const Full<double>& c = s.cofactor;
     const double inverse[3][3] = {{c.xx / s.ratio, c.yx / s.ratio, c.zx / s.ratio},
                                   {c.xy / s.ratio, c.yy / s.ratio, c.zy / s.ratio},
@@ -115,39 +129,53 @@ class NeoHooke {
   }
 
  private:
+  static constexpr double kLargestInput = 1e60;  // products stay representable
+
+  template <class R>
   struct State {
-    Full<double> cofactor;
-    double change, ratio, log_ratio;
-    Symmetric<double> tau;
+    Full<R> cofactor;
+    R change, ratio, log_ratio;
+    Symmetric<R> tau;
   };
-  State state_of(const Full<double>& h) const {
-    const auto c = cofactor_of(h);
-    State s{c.cofactor, c.volume_change, 1 + c.volume_change, log_one_plus(c.volume_change), {}};
-    s.tau = plus_spherical(scaled(mu_, push_forward_minus_identity(h, Symmetric<double>{})),
+  template <class R>
+  CLEAVE_INLINE State<R> state_of(const Full<R>& h, const Cofactor<R>& c) const {
+    State<R> s{
+        c.cofactor, c.volume_change, 1.0 + c.volume_change, log_one_plus(c.volume_change), {}};
+    s.tau = plus_spherical(scaled(R(mu_), push_forward_minus_identity(h, Symmetric<R>{})),
                            lambda_ * s.log_ratio);
     return s;
   }
-  static double squared_norm(const Full<double>& h) {
+  template <class R>
+  static R squared_norm(const Full<R>& h) {
     return ((h.xx * h.xx + h.xy * h.xy) + (h.xz * h.xz + h.yx * h.yx)) +
            ((h.yy * h.yy + h.yz * h.yz) + (h.zx * h.zx + h.zy * h.zy)) + h.zz * h.zz;
+  }
+  template <class R>
+  [[gnu::noinline]] static void refuse_extreme(LanePoint<R, 0>& point) {
+    R size = sum_of_sizes(point.h);
+    point.valid = is_finite(size);
+    size = select(point.valid, size, R(0.0));
+    point.valid = point.valid & (size < kLargestInput);
+    point.h = select(point.valid, point.h, Full<R>{});
   }
 
   // Whether there is an answer; in plane stress h33 is found on the way.
   bool admissible(Full<double>& h) const {
-    double size = 0;
-    for (const double x : {h.xx, h.xy, h.xz, h.yx, h.yy, h.yz, h.zx, h.zy, h.zz})
-      size += std::fabs(x);
-    if (!is_finite(size) || !(size < 1e60)) return false;  // products stay representable
-    const double in_plane = cofactor_of(h).volume_change;
-    if (!(in_plane > -1)) return false;
-    if (kinematics_ != CLEAVE_PLANE_STRESS) return true;
+    const double size = sum_of_sizes(h);
+    if (!is_finite(size) || !(size < kLargestInput)) return false;
+    return in_lanes() ? cofactor_of(h).volume_change > -1 : find_thickness(h);
+  }
+  bool find_thickness(Full<double>& h) const {
+    const double size = sum_of_sizes(h);
+    if (!is_finite(size) || !(size < kLargestInput)) return false;
+    if (!(cofactor_of(h).volume_change > -1)) return false;
     const auto trial = [&](double guess) {
       ThicknessTrial t;
       t.valid = guess > -1;
       if (!t.valid) return t;
       h.zz = guess;
       // tau33, which unlike P33 grows with F33 for nu >= 0.
-      t.p33 = state_of(h).tau.zz;
+      t.p33 = state_of(h, cofactor_of(h)).tau.zz;
       t.slope = 2 * mu_ * (1 + guess) + lambda_ / (1 + guess);
       return t;
     };

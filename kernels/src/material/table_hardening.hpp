@@ -103,7 +103,7 @@ class TableHardening : public RateIndependent {
     }
   }
   template <class R>
-  R work(const Start<R>& s, const R& x) const {
+  R work(const Start<R>& s, const R& x, const R&) const {
     R sum = s.yield * x;
     for (std::size_t k = 0; k < count_; ++k) {
       const Part<R> part = part_of(s, x, k);

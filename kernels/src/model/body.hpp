@@ -59,6 +59,7 @@ struct Body {
   std::vector<double> given_positions;        // until set-up
   std::vector<std::int64_t> given_simplices;  // (simplex_nodes,m) until set-up
   std::vector<char> exempt;                   // (n) 1: in a zone without fracture; empty: none
+  bool by_rows = false;                       // step in the order of operations of the array calls
 
   const MaterialEntry* law;
   ParameterSet material_parameters;

@@ -10,10 +10,12 @@
 
 #include "cleave/cleave.h"
 #include "core/gradient_operator.hpp"
+#include "core/thread_team.hpp"
 
 namespace cleave {
 
 struct Body;
+class ResidentStep;
 
 // The step being done: number (1 = first), time at its end, size.
 struct Clock {
@@ -39,21 +41,25 @@ class Formulation {
   // Checks the options, allocates the formulation's fields and fills those of lifetime setup.
   virtual void setup(Body& body) = 0;
   // All caches from setup and state fields, and whatever the formulation keeps outside fields.
-  virtual void rebuild(Body& body, int threads) = 0;
+  virtual void rebuild(Body& body, ThreadTeam& team) = 0;
   // Largest stable step of the undeformed body with its safety [s].
   virtual double stable_step(const Body& body) const = 0;
   // The gradient operator of a formulation with a stress at points, else nullptr. Valid until bonds
   // break or the body is rebuilt.
   virtual const GradientOperator* gradient_operator() const { return nullptr; }
 
+  // The explicit step of a formulation that keeps the state in an order of its own; nullptr: the step goes
+  // by the functions below, on the fields.
+  virtual ResidentStep* resident() { return nullptr; }
+
   // What the static solver would miss, as a sentence; empty: nothing.
   virtual std::string static_obstacle(const Body&) const { return {}; }
 
   // The parts of a step, in this order.
-  virtual void break_bonds(Body& body, const Clock& clock, int threads) = 0;
+  virtual void break_bonds(Body& body, const Clock& clock, ThreadTeam& team) = 0;
   // Displacement gradient, then stress.
-  virtual void deform(Body& body, const Clock& clock, int threads) = 0;
-  virtual void forces(Body& body, int threads) = 0;  // sets internal and viscous force
+  virtual void deform(Body& body, const Clock& clock, ThreadTeam& team) = 0;
+  virtual void forces(Body& body, ThreadTeam& team) = 0;  // sets internal and viscous force
 
   // Breaks bonds before the first step. [in] pairs (2,count)
   virtual void precrack(Body& body, std::span<const std::int64_t> pairs) = 0;

@@ -59,6 +59,7 @@ void set_up(cleave_model& model) {
   for (auto& body : model.bodies) {
     body->material_parameters.require_all();
     body->material = body->law->make(body->material_parameters.values(), body->kinematics);
+    body->by_rows = model.by_rows;
     body->make_fields();
     body->formulation->setup(*body);
     body->events.reserve(static_cast<std::size_t>(std::min<std::int64_t>(body->particles, 65536)));

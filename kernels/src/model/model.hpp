@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/thread_team.hpp"
 #include "model/body.hpp"
 
 // The opaque type of the interface.
@@ -14,8 +15,9 @@ struct cleave_model {
   enum class Phase { building, ready, stepping, advanced };
 
   Phase phase = Phase::building;
-  int threads = 1;
-  int index_base = 0;  // of messages
+  cleave::ThreadTeam team;
+  int index_base = 0;    // of messages
+  bool by_rows = false;  // see Body
   cleave::Clock clock;
   std::vector<std::unique_ptr<cleave::Body>> bodies;
 
@@ -38,6 +40,7 @@ void update(cleave_model& model);
 void restore(cleave_model& model, std::int64_t step, double time);
 // stable_step.cpp: for the present deformation
 double stable_step(cleave_model& model);
+bool is_stable(cleave_model& model, double dt);
 
 // questions
 void reaction(const Body& body, std::span<const std::int64_t> particles, double force[3]);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/model.hpp"
+#include "model/resident.hpp"
 
 namespace cleave {
 
@@ -48,19 +49,18 @@ double stiffening(const Law& law, double volume_ratio, const History& history) {
 }
 
 template <int D>
-double deformation_factor(Body& body, int threads) {
+double deformation_factor(Body& body, ThreadTeam& team) {
   with_law(body.material, [&](const auto& law) {
-    for_blocks(
-        threads, body.points, [&](std::int64_t block, std::int64_t first, std::int64_t last) {
-          double least = 1;
-          for (std::int64_t q = first; q < last; ++q) {
-            if (!(body.point.volume[q] > 0)) continue;
-            const Mat<D> f = plus_identity(load_tensor<D>(body.point.h, q));
-            least = std::fmin(least, shortest_stretch(f) /
-                                         stiffening(law, body.point.ratio[q], body.history.at(q)));
-          }
-          body.point_work[block][0] = least;
-        });
+    for_blocks(team, body.points, [&](std::int64_t block, std::int64_t first, std::int64_t last) {
+      double least = 1;
+      for (std::int64_t q = first; q < last; ++q) {
+        if (!(body.point.volume[q] > 0)) continue;
+        const Mat<D> f = plus_identity(load_tensor<D>(body.point.h, q));
+        least = std::fmin(
+            least, shortest_stretch(f) / stiffening(law, body.point.ratio[q], body.history.at(q)));
+      }
+      body.point_work[block][0] = least;
+    });
   });
   double least = 1;
   for (std::int64_t block = 0; block < block_count(body.points); ++block)
@@ -68,16 +68,36 @@ double deformation_factor(Body& body, int threads) {
   return least;
 }
 
+double stable_step(Body& body, ThreadTeam& team) {
+  fetch(body);
+  const double factor =
+      body.dimension() == 2 ? deformation_factor<2>(body, team) : deformation_factor<3>(body, team);
+  return factor * body.formulation->stable_step(body);
+}
+
+bool stiffens(const Body& body) {
+  return with_law(body.material, [](const auto& law) {
+    return requires { law.wave_speed_ratio(1.0, History{}); };
+  });
+}
+
 }  // namespace
 
 double stable_step(cleave_model& model) {
   double step = kUnbounded;
-  for (auto& body : model.bodies) {
-    const double factor = body->dimension() == 2 ? deformation_factor<2>(*body, model.threads)
-                                                 : deformation_factor<3>(*body, model.threads);
-    step = std::min(step, factor * body->formulation->stable_step(*body));
-  }
+  for (auto& body : model.bodies) step = std::min(step, stable_step(*body, model.team));
   return step;
+}
+
+bool is_stable(cleave_model& model, double dt) {
+  for (auto& body : model.bodies) {
+    ResidentStep* resident = body->formulation->resident();
+    const double bound =
+        resident == nullptr || stiffens(*body) ? 0.0 : resident->shortest_stretch();
+    if (dt <= bound * body->formulation->stable_step(*body)) continue;
+    if (!(dt <= stable_step(*body, model.team))) return false;
+  }
+  return true;
 }
 
 }  // namespace cleave

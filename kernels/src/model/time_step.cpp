@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "model/model.hpp"
+#include "model/resident.hpp"
 
 namespace cleave {
 
@@ -21,18 +22,17 @@ void for_prescribed(Body& body, const F& f) {
 }
 
 // Adds half of the trapezoid of the works with the forces now in the arrays and dx = dt v.
-void add_half_work(Body& body, double dt, int threads) {
+void add_half_work(Body& body, double dt, ThreadTeam& team) {
   const PointArrays& pt = body.point;
-  for_blocks(threads, body.particles,
-             [&](std::int64_t block, std::int64_t first, std::int64_t last) {
-               double internal = 0, viscous = 0, external = 0;
-               for (std::int64_t c = kVector * first; c < kVector * last; ++c) {
-                 internal += pt.internal[c] * pt.v[c];
-                 viscous += pt.viscous[c] * pt.v[c];
-                 external += pt.external[c] * pt.v[c];
-               }
-               body.work[block] = {internal, viscous, external};
-             });
+  for_blocks(team, body.particles, [&](std::int64_t block, std::int64_t first, std::int64_t last) {
+    double internal = 0, viscous = 0, external = 0;
+    for (std::int64_t c = kVector * first; c < kVector * last; ++c) {
+      internal += pt.internal[c] * pt.v[c];
+      viscous += pt.viscous[c] * pt.v[c];
+      external += pt.external[c] * pt.v[c];
+    }
+    body.work[block] = {internal, viscous, external};
+  });
   const auto [internal, viscous, external] = body.work.total();
   double reaction = 0;
   for_prescribed(body, [&](std::int64_t c, const PrescribedDof& dof) {
@@ -45,16 +45,16 @@ void add_half_work(Body& body, double dt, int threads) {
   pt.ledger[ledger::kReaction] += half * reaction;
 }
 
-void kick(Body& body, double half, int threads) {
+void kick(Body& body, double half, ThreadTeam& team) {
   const PointArrays& pt = body.point;
-  for_blocks(threads, body.particles, [&](std::int64_t, std::int64_t first, std::int64_t last) {
+  for_blocks(team, body.particles, [&](std::int64_t, std::int64_t first, std::int64_t last) {
     for (std::int64_t c = kVector * first; c < kVector * last; ++c) pt.v[c] += half * pt.a[c];
   });
 }
 
-void accelerate(Body& body, int threads) {
+void accelerate(Body& body, ThreadTeam& team) {
   const PointArrays& pt = body.point;
-  for_blocks(threads, body.particles, [&](std::int64_t, std::int64_t first, std::int64_t last) {
+  for_blocks(team, body.particles, [&](std::int64_t, std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i) {
       const double inverse = 1 / pt.mass[i];
       for (int k = 0; k < body.dimension(); ++k) {
@@ -96,16 +96,29 @@ void change_step(Body& body, double dt) {
   pt.ledger[ledger::kLastStep] = dt;
 }
 
-void advance_body(Body& body, double dt, int threads) {
-  const PointArrays& pt = body.point;
-  if (!(pt.ledger[ledger::kStarted] > 0)) start_ledger(body, dt);
+// What the ledger must know of a step that begins.
+void begin_step(Body& body, double dt) {
+  const double* entry = body.point.ledger;
+  const bool started = entry[ledger::kStarted] > 0;
+  if (started && entry[ledger::kLastStep] == dt) return;
+  fetch(body);
+  if (!started) start_ledger(body, dt);
   change_step(body, dt);
-  kick(body, 0.5 * dt, threads);
+}
+
+void advance_body(Body& body, double dt, ThreadTeam& team) {
+  begin_step(body, dt);
+  if (ResidentStep* resident = body.formulation->resident()) {
+    resident->advance(body, dt, team);
+    return;
+  }
+  const PointArrays& pt = body.point;
+  kick(body, 0.5 * dt, team);
   for_prescribed(body, [&](std::int64_t c, const PrescribedDof& dof) {
     if (dof.motion == CLEAVE_MOTION_EXACT) pt.v[c] = (dof.displacement - pt.u[c]) / dt;
   });
-  add_half_work(body, dt, threads);
-  for_blocks(threads, body.particles, [&](std::int64_t, std::int64_t first, std::int64_t last) {
+  add_half_work(body, dt, team);
+  for_blocks(team, body.particles, [&](std::int64_t, std::int64_t first, std::int64_t last) {
     for (std::int64_t c = kVector * first; c < kVector * last; ++c) {
       pt.u[c] += dt * pt.v[c];
       pt.x[c] = pt.X[c] + pt.u[c];
@@ -119,12 +132,26 @@ void advance_body(Body& body, double dt, int threads) {
 }
 
 // A formulation names the particle; the step and the time are known here.
-void deform_at(Body& body, const Clock& clock, int threads) {
+template <class F>
+void at_clock(const Clock& clock, const F& f) {
   try {
-    body.formulation->deform(body, clock, threads);
+    f();
   } catch (const Error& e) {
     throw Error(e.status, text(e.what(), "; at step ", clock.step, ", time ", clock.time));
   }
+}
+
+void update_body(Body& body, const Clock& clock, ThreadTeam& team) {
+  if (ResidentStep* resident = body.formulation->resident()) {
+    resident->update(body, clock, team);
+    return;
+  }
+  body.formulation->break_bonds(body, clock, team);
+  body.formulation->deform(body, clock, team);
+  body.formulation->forces(body, team);
+  accelerate(body, team);
+  add_half_work(body, clock.dt, team);
+  kick(body, 0.5 * clock.dt, team);
 }
 
 // The works see every force and velocity: if they are finite, so is the step. Only otherwise the
@@ -136,6 +163,7 @@ void check_finite(Body& body, const Clock& clock) {
                      pt.ledger[ledger::kFracture] + pt.ledger[ledger::kPlastic] +
                      pt.ledger[ledger::kShock];
   if (std::isfinite(sum)) return;
+  fetch(body);
   for (const char* name : {"external_force", "displacement", "first_piola_kirchhoff_stress",
                            "internal_force", "viscous_force", "velocity"}) {
     const Field& f = *body.fields.find(name);
@@ -155,15 +183,35 @@ void check_finite(Body& body, const Clock& clock) {
 
 }  // namespace
 
+void fetch(Body& body, std::string_view field) {
+  if (ResidentStep* resident = body.formulation->resident()) resident->fetch(body, field);
+}
+
+void take_fields(Body& body) {
+  ResidentStep* resident = body.formulation->resident();
+  if (resident == nullptr) return;
+  resident->fetch(body, {});
+  resident->changed({});
+}
+
+void prepare(cleave_model& model) {
+  for (auto& body : model.bodies) {
+    if (ResidentStep* resident = body->formulation->resident())
+      resident->prepare(*body, model.team);
+  }
+}
+
 void initialise(cleave_model& model, double time) {
   model.clock = {0, time, 0};
   for (auto& body : model.bodies) {
+    take_fields(*body);
     for (std::int64_t c = 0; c < kVector * body->particles; ++c)
       body->point.x[c] = body->point.X[c] + body->point.u[c];
-    body->formulation->deform(*body, model.clock, model.threads);
-    body->formulation->forces(*body, model.threads);
-    accelerate(*body, model.threads);
+    body->formulation->deform(*body, model.clock, model.team);
+    body->formulation->forces(*body, model.team);
+    accelerate(*body, model.team);
   }
+  prepare(model);
   model.phase = cleave_model::Phase::stepping;
 }
 
@@ -171,19 +219,14 @@ void advance(cleave_model& model, double dt, double time_new) {
   if (!(dt > 0) || !std::isfinite(dt)) {
     throw Error(CLEAVE_BAD_ARGUMENT, text("the time step is ", dt, "; allowed: > 0 and finite"));
   }
-  for (auto& body : model.bodies) advance_body(*body, dt, model.threads);
+  for (auto& body : model.bodies) advance_body(*body, dt, model.team);
   model.clock = {model.clock.step + 1, time_new, dt};
   model.phase = cleave_model::Phase::advanced;
 }
 
 void update(cleave_model& model) {
   for (auto& body : model.bodies) {
-    body->formulation->break_bonds(*body, model.clock, model.threads);
-    deform_at(*body, model.clock, model.threads);
-    body->formulation->forces(*body, model.threads);
-    accelerate(*body, model.threads);
-    add_half_work(*body, model.clock.dt, model.threads);
-    kick(*body, 0.5 * model.clock.dt, model.threads);
+    at_clock(model.clock, [&] { update_body(*body, model.clock, model.team); });
     check_finite(*body, model.clock);
   }
   model.phase = cleave_model::Phase::stepping;
@@ -191,11 +234,13 @@ void update(cleave_model& model) {
 
 void restore(cleave_model& model, std::int64_t step, double time) {
   for (auto& body : model.bodies) {
+    take_fields(*body);
     for (std::int64_t c = 0; c < kVector * body->particles; ++c)
       body->point.x[c] = body->point.X[c] + body->point.u[c];
-    body->formulation->rebuild(*body, model.threads);
+    body->formulation->rebuild(*body, model.team);
   }
   model.clock = {step, time, 0};
+  prepare(model);
   model.phase = cleave_model::Phase::stepping;
 }
 

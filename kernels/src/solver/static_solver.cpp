@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "model/resident.hpp"
 #include "solver/stiffness.hpp"
 
 namespace cleave {
@@ -61,10 +62,10 @@ Error no_convergence(const Body& body, const std::string& why) {
 
 class Newton {
  public:
-  Newton(Body& body, const Clock& clock, int threads, const StaticOptions& options)
+  Newton(Body& body, const Clock& clock, ThreadTeam& team, const StaticOptions& options)
       : body_(body),
         clock_(clock),
-        threads_(threads),
+        team_(team),
         options_(options),
         g_(*body.formulation->gradient_operator()),
         committed_(body),
@@ -119,8 +120,8 @@ class Newton {
       body_.point.v[c] = 0;
       body_.point.a[c] = 0;
     }
-    body_.formulation->deform(body_, clock_, threads_);
-    body_.formulation->forces(body_, threads_);
+    body_.formulation->deform(body_, clock_, team_);
+    body_.formulation->forces(body_, team_);
   }
 
   Vector residual() const {
@@ -230,7 +231,7 @@ class Newton {
 
   Body& body_;
   Clock clock_;
-  int threads_;
+  ThreadTeam& team_;
   StaticOptions options_;
   const GradientOperator& g_;
   Committed committed_;
@@ -263,6 +264,7 @@ StaticReport solve_static(cleave_model& model, double time_new, const StaticOpti
                                           options.max_iterations, "; allowed: > 0 and >= 1"));
   }
   for (auto& body : model.bodies) {
+    take_fields(*body);
     if (body->formulation->gradient_operator() == nullptr) {
       throw Error(CLEAVE_UNSUPPORTED,
                   text(body->label(), ": formulation ", body->formulation->name(),
@@ -280,7 +282,7 @@ StaticReport solve_static(cleave_model& model, double time_new, const StaticOpti
   try {
     for (auto& body : model.bodies) {
       start_ledger(*body);
-      done.push_back(std::make_unique<Newton>(*body, clock, model.threads, options));
+      done.push_back(std::make_unique<Newton>(*body, clock, model.team, options));
       Newton& newton = *done.back();
       newton.solve();
       report.iterations = std::max(report.iterations, newton.iterations);
@@ -293,7 +295,7 @@ StaticReport solve_static(cleave_model& model, double time_new, const StaticOpti
       Body& body = *model.bodies[k];
       for (std::int64_t c = 0; c < kVector * body.particles; ++c)
         body.point.x[c] = body.point.X[c] + body.point.u[c];
-      body.formulation->rebuild(body, model.threads);
+      body.formulation->rebuild(body, model.team);
     }
     throw;
   }

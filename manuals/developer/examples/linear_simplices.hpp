@@ -39,13 +39,13 @@ class LinearSimplices final : public Formulation {
     }
   }
 
-  void rebuild(Body& body, int threads) override { deform(body, {}, threads); }
+  void rebuild(Body& body, ThreadTeam& team) override { deform(body, {}, team); }
 
-  void deform(Body& body, const Clock&, int threads) override {
-    body.dimension() == 2 ? stresses<2>(body, threads) : stresses<3>(body, threads);
+  void deform(Body& body, const Clock&, ThreadTeam& team) override {
+    body.dimension() == 2 ? stresses<2>(body, team) : stresses<3>(body, team);
   }
-  void forces(Body& body, int threads) override {
-    body.dimension() == 2 ? gather<2>(body, threads) : gather<3>(body, threads);
+  void forces(Body& body, ThreadTeam& team) override {
+    body.dimension() == 2 ? gather<2>(body, team) : gather<3>(body, team);
   }
 
   // The shortest height of a simplex over the wave speed is safe for linear elements.
@@ -72,7 +72,7 @@ class LinearSimplices final : public Formulation {
   void count(const Body&, cleave_counts& counts) const override { counts.simplices += count(); }
 
   // What this formulation does not have.
-  void break_bonds(Body&, const Clock&, int) override {}
+  void break_bonds(Body&, const Clock&, ThreadTeam&) override {}
   void precrack(Body& body, std::span<const std::int64_t>) override {
     throw Error(CLEAVE_UNSUPPORTED, text(body.label(), ": linear_simplices has no bonds to break"));
   }
@@ -103,9 +103,9 @@ class LinearSimplices final : public Formulation {
 
   // F_L and P(F_L) of every simplex.
   template <int D>
-  void stresses(Body& body, int threads) {
+  void stresses(Body& body, ThreadTeam& team) {
     with_law(body.material, [&](const auto& law) {
-      for_blocks(threads, count(), [&](std::int64_t, std::int64_t first, std::int64_t last) {
+      for_blocks(team, count(), [&](std::int64_t, std::int64_t first, std::int64_t last) {
         for (std::int64_t s = first; s < last; ++s) {
           const auto shape = geometry<D>(body, s);
           Mat<D> h;
@@ -123,8 +123,8 @@ class LinearSimplices final : public Formulation {
 
   // f_i = - sum over simplices of Omega_L P_L g_i, gathered so that a particle's sum has one order.
   template <int D>
-  void gather(Body& body, int threads) {
-    for_blocks(threads, body.particles, [&](std::int64_t, std::int64_t first, std::int64_t last) {
+  void gather(Body& body, ThreadTeam& team) {
+    for_blocks(team, body.particles, [&](std::int64_t, std::int64_t first, std::int64_t last) {
       for (std::int64_t i = first; i < last; ++i) {
         Vec<D> force;
         for (auto k = incidence_.begin[static_cast<std::size_t>(i)];

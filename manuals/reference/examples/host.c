@@ -1,7 +1,7 @@
 /* A smallest host: a square of two triangles, its upper edge moved up, ten steps of the library.
  *
  *   cc -I kernels/include -I BUILD/include -c host.c
- *   c++ host.o BUILD/kernels/libcleave.a -fopenmp -o host
+ *   c++ host.o BUILD/kernels/libcleave.a -o host
  *
  * Prints the force on the upper edge. */
 #include <stdio.h>

@@ -1,6 +1,7 @@
 """Runs of the program that only a process can show: signals, exit codes, what is printed."""
 
 import filecmp
+import os
 import pathlib
 import shutil
 import signal
@@ -70,6 +71,26 @@ def told(root):
     check([p.name for p in (root / "checked").iterdir()] == ["case.nml"], "a check writes no file")
 
 
+def more_threads_than_cores(root):
+    """Allowed and said, in a run and a check; not with --quiet, and not where there are cores enough."""
+    if not hasattr(os, "sched_setaffinity"):
+        return
+    core = {min(os.sched_getaffinity(0))}
+    write_deck(root, "t_end=5 threads=2")
+
+    def printed(*words):
+        done = subprocess.run([PROGRAM, *words], cwd=root, capture_output=True, text=True,
+                              preexec_fn=lambda: os.sched_setaffinity(0, core))
+        check(done.returncode == 0 and done.stderr == "", f"{words} on one core", done.stderr)
+        return done.stdout
+
+    note = "note: 2 threads, but 1 core for this process: --threads 1 is not slower\n"
+    for words in (["case.nml"], ["check", "case.nml"]):
+        check(note in printed(*words), f"{words} says {note!r}")
+        check("note:" not in printed(*words, "--threads", "1"), f"{words} on one thread has nothing to say")
+    check(printed("--quiet", "case.nml") == "", "--quiet is quiet")
+
+
 with tempfile.TemporaryDirectory() as temporary:
-    for test in (stopped_and_continued, moved_directory, failed, told):
+    for test in (stopped_and_continued, moved_directory, failed, told, more_threads_than_cores):
         test(pathlib.Path(temporary) / test.__name__)

@@ -114,7 +114,8 @@ inline BodyGeometry unit_cells(std::int64_t nx, std::int64_t ny) {
   }
   for (std::int64_t j = 0; j < ny; ++j) {
     for (std::int64_t i = 0; i < nx; ++i) {
-      const std::int64_t a = j * (nx + 1) + i, b = a + 1, c = b + nx + 1, d = a + nx + 1;
+      const auto a = static_cast<std::int32_t>(j * (nx + 1) + i), b = a + 1;
+      const auto d = static_cast<std::int32_t>(a + nx + 1), c = d + 1;
       body.simplices.insert(body.simplices.end(), {a, b, c, a, c, d});
     }
   }

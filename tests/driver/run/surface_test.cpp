@@ -24,7 +24,7 @@ BodyGeometry cube() {
   const io::Mesh mesh = io::make_lattice(spec);
   BodyGeometry body;
   body.X = mesh.points;
-  body.simplices = mesh.tetrahedra.nodes;
+  body.simplices.assign(mesh.tetrahedra.nodes.begin(), mesh.tetrahedra.nodes.end());
   return body;
 }
 

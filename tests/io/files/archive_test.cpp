@@ -209,4 +209,79 @@ TEST(Archive, FollowsASymbolicLink) {
   }
 }
 
+// An array of several blocks, read in pieces, of which none is kept.
+TEST(ArchiveSource, WritesTheBytesOfAnArchiveInMemory) {
+  ScratchFolder folder;
+  constexpr std::int64_t kRows = 100001;  // of 3 values: more than two blocks
+  const auto value = [](std::int64_t i) { return static_cast<double>(i) / 7; };
+  Archive whole;
+  whole.attributes = {{"step", std::int64_t{5}}};
+  std::vector<double> reals;
+  std::vector<std::int64_t> integers;
+  for (std::int64_t i = 0; i < 3 * kRows; ++i) reals.push_back(value(i));
+  for (std::int64_t i = 0; i < kRows; ++i) integers.push_back(-i);
+  whole.arrays = {{"x", "m", "positions", 3, reals},
+                  {"none", "m", "", 2, std::vector<double>{}},
+                  {"marks", "1", "", 1, integers}};
+  write_archive(folder.file("whole.nc"), whole);
+
+  std::int64_t next = 0, largest = 0;
+  ArchiveSource source;
+  source.attributes = whole.attributes;
+  source.arrays = {
+      {"x", "m", "positions", 3, 3 * kRows,
+       ReadValues<double>([&](std::int64_t first, std::span<double> values) {
+         EXPECT_EQ(first, next);  // every value is asked for once
+         EXPECT_EQ(std::ssize(values) % 3, 0);
+         next += std::ssize(values);
+         largest = std::max<std::int64_t>(largest, std::ssize(values));
+         for (std::size_t k = 0; k < values.size(); ++k)
+           values[k] = value(first + static_cast<std::int64_t>(k));
+       })},
+      {"none", "m", "", 2, 0, ReadValues<double>([](std::int64_t, std::span<double>) {
+         ADD_FAILURE() << "there is nothing to read";
+       })},
+      {"marks", "1", "", 1, kRows,
+       ReadValues<std::int64_t>([&](std::int64_t first, std::span<std::int64_t> values) {
+         std::copy_n(integers.begin() + first, values.size(), values.begin());
+       })}};
+  write_archive_in_blocks(folder.file("blocks.nc"), source);
+  EXPECT_EQ(next, 3 * kRows);
+  EXPECT_LT(largest, 3 * kRows / 2);
+  EXPECT_EQ(bytes_of(folder.file("blocks.nc")), bytes_of(folder.file("whole.nc")));
+}
+
+TEST(ArchiveSource, ThatFailsLeavesTheOldFile) {
+  ScratchFolder folder;
+  const std::string path = folder.file("a.nc");
+  write_archive(path, sample_archive());
+  const std::string before = bytes_of(path);
+  ArchiveSource source;
+  source.arrays = {{"x", "m", "", 1, 10, ReadValues<double>([](std::int64_t, std::span<double>) {
+                      throw std::runtime_error("no such field");
+                    })}};
+  EXPECT_THROW(write_archive_in_blocks(path, source), std::runtime_error);
+  EXPECT_EQ(bytes_of(path), before);
+  EXPECT_NE(::access((path + ".part").c_str(), F_OK), 0);
+}
+
+TEST(ReadArchiveArray, GivesOneArrayAndVerifiesIt) {
+  ScratchFolder folder;
+  const std::string path = folder.file("a.nc");
+  const Archive archive = sample_archive();
+  write_archive(path, archive);
+  for (const NamedArray& array : archive.arrays) {
+    const NamedArray found = read_archive_array(path, array.name);
+    EXPECT_EQ(found.components, array.components);
+    EXPECT_EQ(bits_of(found.data), bits_of(array.data)) << array.name;
+  }
+  EXPECT_THROW(read_archive_array(path, "plate/y"), Error);
+  std::string bytes = bytes_of(path);
+  bytes[bytes.size() - 1] =
+      static_cast<char>(bytes[bytes.size() - 1] ^ 1);  // the last value of "one"
+  put_bytes(path, bytes);
+  EXPECT_THROW(read_archive_array(path, "one"), Error);
+  EXPECT_NO_THROW(read_archive_array(path, "plate/x"));
+}
+
 }  // namespace

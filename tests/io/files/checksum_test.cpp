@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,19 @@ TEST(Checksum, CanBeContinued) {
   const auto bytes = std::as_bytes(std::span(text));
   for (std::size_t cut = 0; cut <= text.size(); ++cut) {
     EXPECT_EQ(crc64(bytes.subspan(cut), crc64(bytes.first(cut))), of_text(text));
+  }
+}
+
+// By carry-less products where the processor has them; the tables have no part in that. Any length, any
+// alignment, any beginning.
+TEST(Checksum, IsTheSameByTablesForEveryLength) {
+  std::mt19937_64 random(1);
+  std::vector<std::byte> bytes(1000);
+  for (std::byte& byte : bytes) byte = static_cast<std::byte>(random());
+  for (std::size_t length = 0; length < 400; ++length) {
+    const auto part = std::span<const std::byte>(bytes).subspan(length % 17, length);
+    const std::uint64_t previous = random();
+    ASSERT_EQ(crc64(part, previous), cleave::io::crc64_by_tables(part, previous)) << length;
   }
 }
 

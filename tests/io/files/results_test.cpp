@@ -300,4 +300,55 @@ TEST_F(Results, DamagedFilesDoNotCrash) {
   EXPECT_GT(refused, 300);
 }
 
+// Frame 1 of write_frame() above, in pieces, from the back, across the blocks of elements.
+void put_pieces(ResultsWriter::Frame& frame) {
+  const auto nodal = [](std::int64_t i) { return 1.0 / 3 + static_cast<double>(i); };
+  for (std::int64_t i = 5; i >= 0; --i) {
+    const double x = nodal(i), y = i == 2 ? std::numeric_limits<double>::quiet_NaN() : -x;
+    frame.put_nodal(1, i, std::span(&y, 1));
+    frame.put_nodal(0, i, std::span(&x, 1));
+  }
+  frame.put_element(0, 3, std::vector<double>{1, 1});
+  frame.put_element(0, 0, std::vector<double>{0, 1, 1});
+}
+
+TEST_F(Results, AFrameInPiecesHasTheSameBytes) {
+  ResultsWriter results = ResultsWriter::create(path_, plate());
+  write_frame(results, 0);
+  {
+    ResultsWriter::Frame frame = results.begin_frame(0.1, std::vector{1.0, 1e-9});
+    put_pieces(frame);
+    EXPECT_EQ(results.frames(), 1);
+    frame.finish();
+  }
+  EXPECT_EQ(results.frames(), 2);
+  EXPECT_EQ(bytes_of(path_), expected(2));
+}
+
+TEST_F(Results, AFrameThatIsNotFinishedIsTakenBack) {
+  ResultsWriter results = ResultsWriter::create(path_, plate());
+  write_frame(results, 0);
+  {
+    ResultsWriter::Frame frame = results.begin_frame(0.1, std::vector{1.0, 1e-9});
+    put_pieces(frame);
+  }
+  EXPECT_EQ(results.frames(), 1);
+  EXPECT_EQ(bytes_of(path_), expected(1));
+  write_frame(results, 1);
+  EXPECT_EQ(bytes_of(path_), expected(2));
+}
+
+TEST_F(Results, AFrameWithWrongPiecesIsRefused) {
+  ResultsWriter results = ResultsWriter::create(path_, plate());
+  const std::vector<double> two(2), global{1.0, 1e-9};
+  EXPECT_THROW(results.begin_frame(0, two).finish(), Error);  // nothing was put
+  EXPECT_THROW(results.begin_frame(0, std::vector<double>(3)), Error);
+  EXPECT_THROW(results.begin_frame(0, global).put_nodal(0, 5, two), Error);
+  EXPECT_THROW(results.begin_frame(0, global).put_nodal(0, -1, two), Error);
+  EXPECT_THROW(results.begin_frame(0, global).put_nodal(2, 0, two), Error);
+  EXPECT_THROW(results.begin_frame(0, global).put_element(0, 4, two), Error);
+  EXPECT_THROW(results.begin_frame(0, global).put_element(1, 0, two), Error);
+  EXPECT_EQ(bytes_of(path_), expected(0));
+}
+
 }  // namespace

@@ -11,8 +11,9 @@ namespace {
 TEST(Blocks, VisitEveryEntryOnce) {
   for (const std::int64_t n : {0, 1, 511, 512, 513, 5000}) {
     for (const int threads : {1, 3}) {
+      ThreadTeam team(threads);
       std::vector<int> visits(static_cast<std::size_t>(n), 0);
-      for_blocks(threads, n, [&](std::int64_t block, std::int64_t first, std::int64_t last) {
+      for_blocks(team, n, [&](std::int64_t block, std::int64_t first, std::int64_t last) {
         EXPECT_EQ(first, block * kBlock);
         EXPECT_LE(last - first, kBlock);
         for (std::int64_t i = first; i < last; ++i) ++visits[static_cast<std::size_t>(i)];
@@ -28,9 +29,10 @@ TEST(Blocks, SumIsTheSameForAnyNumberOfThreads) {
   std::vector<double> a(n);
   for (double& x : a) x = random();
   const auto sum = [&](int threads) {
+    ThreadTeam team(threads);
     BlockSums<1> sums;
     sums.resize(n);
-    for_blocks(threads, n, [&](std::int64_t block, std::int64_t first, std::int64_t last) {
+    for_blocks(team, n, [&](std::int64_t block, std::int64_t first, std::int64_t last) {
       double s = 0;
       for (std::int64_t i = first; i < last; ++i) s += a[static_cast<std::size_t>(i)];
       sums[block] = {s};

@@ -21,6 +21,7 @@ Tensor random_tensor(Random& random, int kind) {
   if (kind == 3) x = {x.xx, x.xx * (1 + 1e-12), x.zz, 1e-13 * x.xy, 0, 0};  // nearly
   return x;
 }
+Tensor deviator(const Tensor& x) { return plus_spherical(x, trace(x) / -3); }
 double norm(const Tensor& x) { return std::sqrt(squared_norm(x)); }
 double distance(const Tensor& a, const Tensor& b) { return norm(a + scaled(-1.0, b)); }
 
@@ -54,12 +55,13 @@ TEST(TensorFunctions, SeriesAndEigenvaluesAgree) {
     Tensor by_values;
     ASSERT_TRUE(log_by_eigenvalues(x, 20, by_values));
     of_log = std::fmax(of_log, distance(log_series(powers_of(x)), by_values) / norm(x));
-    x = scaled(2.3, x);
-    of_exp =
-        std::fmax(of_exp, distance(expm1_series(powers_of(x)), expm1_by_eigenvalues(x)) / norm(x));
+    if (n % 5 == 2) continue;  // has no deviator
+    x = scaled(2.3, deviator(x));
+    of_exp = std::fmax(
+        of_exp, distance(expm1_series(powers_of_deviator(x)), expm1_by_eigenvalues(x)) / norm(x));
     bool valid = true;
-    there_and_back =
-        std::fmax(there_and_back, distance(log_of(expm1_of(x), 0.0, 20, valid), x) / norm(x));
+    there_and_back = std::fmax(there_and_back,
+                               distance(log_of(expm1_of_deviator(x), 0.0, 20, valid), x) / norm(x));
     EXPECT_TRUE(valid);
   }
   EXPECT_LT(of_log, 4e-15);          // measured 1.9e-15
@@ -112,11 +114,12 @@ void compare_lanes() {
       set_lane(changes, l, change[l]);
     }
     MaskOf<P> valid = P(0.0) <= P(0.0);
-    const Symmetric<P> log = log_of(x, changes, 20.0, valid), exp = expm1_of(scaled(P(0.1), x));
+    const Symmetric<P> log = log_of(x, changes, 20.0, valid),
+                       exp = expm1_of_deviator(scaled(P(0.1), x));
     for (int l = 0; l < W; ++l) {
       bool own = true;
       const Tensor log_alone = log_of(one[l], change[l], 20.0, own), log_here = lane(log, l);
-      const Tensor exp_alone = expm1_of(scaled(0.1, one[l])), exp_here = lane(exp, l);
+      const Tensor exp_alone = expm1_of_deviator(scaled(0.1, one[l])), exp_here = lane(exp, l);
       EXPECT_EQ(std::memcmp(&log_alone, &log_here, sizeof(Tensor)), 0);
       EXPECT_EQ(std::memcmp(&exp_alone, &exp_here, sizeof(Tensor)), 0);
       EXPECT_EQ(own, lane(valid, l));

@@ -78,11 +78,8 @@ void expect_same(const Field& a, const Field& b) {
 template <int D, int W, class Law>
 void update_in_packs(const Law& law, Field& f) {
   const StressArrays a = f.arrays();
-  StressResult result;
-  std::int64_t q = 0;
-  for (; q + W <= kPoints; q += W)
-    stress_update::update_lanes<D, Pack<W>, false>(law, a, q, result);
-  for (; q < kPoints; ++q) stress_update::update_lanes<D, double, false>(law, a, q, result);
+  stress_update::Sums sums(0);
+  stress_update::update_batches<D, W>(law, a, 0, kPoints, sums);
 }
 
 template <int D, class Law>

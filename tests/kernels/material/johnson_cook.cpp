@@ -269,7 +269,7 @@ TEST(JohnsonCook, IsTheSameInEveryConsistentSetOfUnits) {
 template <int D, class Law>
 void compare_lanes(const std::vector<double>& properties, Kinematics kinematics, double dt) {
   const Law law(properties, kinematics);
-  constexpr std::size_t kPoints = 600, kHistory = Law::kLaneHistory;
+  constexpr std::size_t kPoints = 600, kHistory = Law::kLaneHistory + 1;  // with the thickness
   Random random(24);
   std::vector<double> h(9 * kPoints), history(kHistory * kPoints, 0.0), volume(kPoints, 1e-9);
   const double sizes[] = {1e-12, 1e-4, 1e-3, 0.02, 0.2, 0.0};

@@ -71,6 +71,18 @@ void ContinuumBondMethod::setup(Body& body) {
   fracture_.setup(body, network_);
   points_.setup(body);
   operator_ = network_.gradient();
+  setup_blocks(body);
+}
+
+void ContinuumBondMethod::setup_blocks(const Body& body) {
+  blocks_.reset();
+  const bool in_block = !stabilisation_.active() &&
+                        (viscosity_ == ViscosityForm::none || viscosity_ == ViscosityForm::frozen);
+  if (body.by_rows || !in_block) return;
+  blocks_ = std::make_unique<BlockStep>(
+      BlockStep::Parts{network_, stabilisation_, fracture_, points_,
+                       viscosity_ == ViscosityForm::none ? nullptr : &bond_rate_});
+  if (!blocks_->setup(body)) blocks_.reset();
 }
 
 void ContinuumBondMethod::setup_viscosity(const Body& body) {
@@ -100,9 +112,9 @@ void ContinuumBondMethod::setup_viscosity(const Body& body) {
   }
 }
 
-void ContinuumBondMethod::rebuild(Body& body, int threads) {
-  network_.rebuild(body, threads);
-  points_.gradients(body, operator_, threads);
+void ContinuumBondMethod::rebuild(Body& body, ThreadTeam& team) {
+  network_.rebuild(body, team);
+  points_.gradients(body, operator_, team);
 }
 
 double ContinuumBondMethod::stable_step(const Body& body) const {
@@ -116,26 +128,26 @@ std::string ContinuumBondMethod::static_obstacle(const Body&) const {
   return "";
 }
 
-void ContinuumBondMethod::break_bonds(Body& body, const Clock& clock, int threads) {
-  fracture_.step(body, network_, stabilisation_, clock, threads);
+void ContinuumBondMethod::break_bonds(Body& body, const Clock& clock, ThreadTeam& team) {
+  fracture_.step(body, network_, stabilisation_, clock, team);
 }
 
 void ContinuumBondMethod::precrack(Body& body, std::span<const std::int64_t> pairs) {
+  if (blocks_ != nullptr) blocks_->changed({});
   fracture_.precrack(body, network_, pairs);
 }
 
-void ContinuumBondMethod::deform(Body& body, const Clock& clock, int threads) {
-  points_.deform(body, operator_, clock, threads);
+void ContinuumBondMethod::deform(Body& body, const Clock& clock, ThreadTeam& team) {
+  points_.deform(body, operator_, clock, team);
 }
 
 template <int D>
-void ContinuumBondMethod::forces_in(Body& body, int threads) {
+void ContinuumBondMethod::forces_in(Body& body, ThreadTeam& team) {
   const PointArrays& pt = body.point;
   const ViscousArrays viscous{network_.weight, pt.x, pt.v, pt.h, pt.ratio, pt.viscous};
-  const double* stress = stabilisation_.active()
-                             ? stabilisation_.bond_stress<D>(body, network_, threads)
-                             : body.point.p;
-  for_blocks(threads, body.particles, [&](std::int64_t, std::int64_t first, std::int64_t last) {
+  const double* stress =
+      stabilisation_.active() ? stabilisation_.bond_stress<D>(body, network_, team) : body.point.p;
+  for_blocks(team, body.particles, [&](std::int64_t, std::int64_t first, std::int64_t last) {
     std::fill(body.point.internal + kVector * first, body.point.internal + kVector * last, 0.0);
     std::fill(body.point.viscous + kVector * first, body.point.viscous + kVector * last, 0.0);
     internal_force<D>(operator_, stress, first, last, body.point.internal);
@@ -145,8 +157,8 @@ void ContinuumBondMethod::forces_in(Body& body, int threads) {
   });
 }
 
-void ContinuumBondMethod::forces(Body& body, int threads) {
-  body.dimension() == 2 ? forces_in<2>(body, threads) : forces_in<3>(body, threads);
+void ContinuumBondMethod::forces(Body& body, ThreadTeam& team) {
+  body.dimension() == 2 ? forces_in<2>(body, team) : forces_in<3>(body, team);
 }
 
 StoredEnergy ContinuumBondMethod::stored_energy(const Body& body) const {
@@ -186,6 +198,8 @@ bool ContinuumBondMethod::derive(const Body& body, std::string_view field, std::
   return true;
 }
 
-std::int64_t ContinuumBondMethod::bytes() const { return network_.bytes(); }
+std::int64_t ContinuumBondMethod::bytes() const {
+  return network_.bytes() + (blocks_ == nullptr ? 0 : blocks_->bytes());
+}
 
 }  // namespace cleave::cbm

@@ -2,8 +2,11 @@
 // of the live simplices around it; a bond that stretches too far takes its simplices with it.
 #pragma once
 
+#include <memory>
 #include <vector>
 
+#include "core/thread_team.hpp"
+#include "formulation/cbm/block_step.hpp"
 #include "formulation/cbm/fracture.hpp"
 #include "formulation/cbm/network.hpp"
 #include "formulation/cbm/stabilisation.hpp"
@@ -16,14 +19,15 @@ class ContinuumBondMethod final : public Formulation {
  public:
   const char* name() const override { return "cbm"; }
   void setup(Body& body) override;
-  void rebuild(Body& body, int threads) override;
+  void rebuild(Body& body, ThreadTeam& team) override;
   double stable_step(const Body& body) const override;
   const GradientOperator* gradient_operator() const override { return &operator_; }
+  ResidentStep* resident() override { return blocks_.get(); }
   std::string static_obstacle(const Body& body) const override;
 
-  void break_bonds(Body& body, const Clock& clock, int threads) override;
-  void deform(Body& body, const Clock& clock, int threads) override;
-  void forces(Body& body, int threads) override;
+  void break_bonds(Body& body, const Clock& clock, ThreadTeam& team) override;
+  void deform(Body& body, const Clock& clock, ThreadTeam& team) override;
+  void forces(Body& body, ThreadTeam& team) override;
   void precrack(Body& body, std::span<const std::int64_t> pairs) override;
 
   StoredEnergy stored_energy(const Body& body) const override;
@@ -35,8 +39,9 @@ class ContinuumBondMethod final : public Formulation {
 
  private:
   void setup_viscosity(const Body& body);
+  void setup_blocks(const Body& body);
   template <int D>
-  void forces_in(Body& body, int threads);
+  void forces_in(Body& body, ThreadTeam& team);
 
   Network network_;
   GradientOperator operator_;
@@ -45,6 +50,7 @@ class ContinuumBondMethod final : public Formulation {
   Stabilisation stabilisation_;
   ViscosityForm viscosity_ = ViscosityForm::none;
   BondRate<std::int32_t> bond_rate_;
+  std::unique_ptr<BlockStep> blocks_;  // nullptr: the step goes by rows
   double beta_ = 0;
   double shortest_ = 0, stable_length_ = 0;  // [m] of the intact body: do not change with damage
 };

@@ -98,19 +98,17 @@ void Fracture::set_critical_strains(const Body& body, const Network& network) co
   }
 }
 
-bool Fracture::find_broken(const Body& body, const Network& network, int threads) {
+bool Fracture::find_broken(const Body& body, const Network& network, ThreadTeam& team) {
   const double* critical = network.critical;
-  for_blocks(threads, network.bonds,
-             [&](std::int64_t block, std::int64_t first, std::int64_t last) {
-               bool any = false;
-               for (std::int64_t b = first; b < last; ++b) {
-                 const Vec<3> d =
-                     difference<3>(body.point.x, network.ends[2 * b], network.ends[2 * b + 1]);
-                 const double limit = (1 + critical[b]) * network.length[b];
-                 any |= network.status[b] == kIntact && dot(d, d) >= limit * limit;
-               }
-               block_has_broken_[static_cast<std::size_t>(block)] = any ? 1 : 0;
-             });
+  for_blocks(team, network.bonds, [&](std::int64_t block, std::int64_t first, std::int64_t last) {
+    bool any = false;
+    for (std::int64_t b = first; b < last; ++b) {
+      const Vec<3> d = difference<3>(body.point.x, network.ends[2 * b], network.ends[2 * b + 1]);
+      const double limit = (1 + critical[b]) * network.length[b];
+      any |= network.status[b] == kIntact && dot(d, d) >= limit * limit;
+    }
+    block_has_broken_[static_cast<std::size_t>(block)] = any ? 1 : 0;
+  });
   for (std::int64_t block = 0; block < block_count(network.bonds); ++block) {
     if (block_has_broken_[static_cast<std::size_t>(block)] == 0) continue;
     for (std::int64_t b = block * kBlock; b < std::min(network.bonds, (block + 1) * kBlock); ++b) {
@@ -302,8 +300,9 @@ void Fracture::reset() {
 
 template <int D>
 void Fracture::break_bonds(Body& body, Network& network, const Stabilisation& stabilisation,
-                           const Clock& clock) {
+                           const Clock& clock, StateKeeper* keeper) {
   collect(body, network);
+  if (keeper != nullptr) keeper->bring(body, touched_);
   add_release<D>(body, network, stabilisation, clock, +1);
   delete_collected<D>(network);
   add_release<D>(body, network, stabilisation, clock, -1);
@@ -312,17 +311,23 @@ void Fracture::break_bonds(Body& body, Network& network, const Stabilisation& st
   for (const double e : release_) body.point.ledger[ledger::kFracture] += e;
   share_release(body, network);
   record_events(body, network, clock);
+  if (keeper != nullptr) keeper->rebuilt(body, touched_);
   reset();
 }
 
 void Fracture::step(Body& body, Network& network, const Stabilisation& stabilisation,
-                    const Clock& clock, int threads) {
-  if (!active_ || !find_broken(body, network, threads)) return;
-  if (body.dimension() == 2) {
-    break_bonds<2>(body, network, stabilisation, clock);
-  } else {
-    break_bonds<3>(body, network, stabilisation, clock);
-  }
+                    const Clock& clock, ThreadTeam& team) {
+  if (!active_ || !find_broken(body, network, team)) return;
+  body.dimension() == 2 ? break_bonds<2>(body, network, stabilisation, clock, nullptr)
+                        : break_bonds<3>(body, network, stabilisation, clock, nullptr);
+}
+
+void Fracture::step(Body& body, Network& network, const Stabilisation& stabilisation,
+                    const Clock& clock, std::span<const std::int32_t> broken, StateKeeper& keeper) {
+  if (broken.empty()) return;
+  broken_.assign(broken.begin(), broken.end());
+  body.dimension() == 2 ? break_bonds<2>(body, network, stabilisation, clock, &keeper)
+                        : break_bonds<3>(body, network, stabilisation, clock, &keeper);
 }
 
 void Fracture::precrack(Body& body, Network& network, std::span<const std::int64_t> pairs) {

@@ -8,10 +8,20 @@
 #include <span>
 #include <vector>
 
+#include "core/thread_team.hpp"
 #include "formulation/cbm/network.hpp"
 #include "formulation/cbm/stabilisation.hpp"
 
 namespace cleave::cbm {
+
+// Who keeps the state of the particles elsewhere: is told before the fields of particles and their
+// neighbours are read, and after their rows were rebuilt.
+class StateKeeper {
+ public:
+  virtual ~StateKeeper() = default;
+  virtual void bring(Body& body, std::span<const std::int32_t> particles) = 0;
+  virtual void rebuilt(Body& body, std::span<const std::int32_t> particles) = 0;
+};
 
 class Fracture {
  public:
@@ -20,13 +30,16 @@ class Fracture {
   // direction, never break.
   void setup(const Body& body, const Network& network);
   void step(Body& body, Network& network, const Stabilisation& stabilisation, const Clock& clock,
-            int threads);
+            ThreadTeam& team);
+  // The same for bonds found elsewhere, ascending, with the state in `keeper`.
+  void step(Body& body, Network& network, const Stabilisation& stabilisation, const Clock& clock,
+            std::span<const std::int32_t> broken, StateKeeper& keeper);
   // Deletes the simplices of the bonds without criterion, energy or event.
   void precrack(Body& body, Network& network, std::span<const std::int64_t> pairs);
 
  private:
   void set_critical_strains(const Body& body, const Network& network) const;
-  bool find_broken(const Body& body, const Network& network, int threads);
+  bool find_broken(const Body& body, const Network& network, ThreadTeam& team);
   void collect(const Body& body, const Network& network);
   template <int D>
   void add_release(const Body& body, const Network& network, const Stabilisation& stabilisation,
@@ -39,7 +52,7 @@ class Fracture {
   void mark_inert(const Body& body, const Network& network) const;
   template <int D>
   void break_bonds(Body& body, Network& network, const Stabilisation& stabilisation,
-                   const Clock& clock);
+                   const Clock& clock, StateKeeper* keeper);
   void share_release(const Body& body, const Network& network);
   void record_events(Body& body, const Network& network, const Clock& clock) const;
   void reset();

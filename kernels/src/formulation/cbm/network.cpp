@@ -37,7 +37,8 @@ void Network::build(Body& body) {
   weight = body.fields.real("bond_weight");
   volume = body.point.volume;
   make_bonds();
-  rebuild(body, 1);
+  ThreadTeam alone;
+  rebuild(body, alone);
 }
 
 void Network::check_simplices(const Body& body) const {
@@ -97,12 +98,12 @@ void Network::make_bonds() {
   bonds = bond;
 }
 
-void Network::rebuild(const Body& body, int threads) {
+void Network::rebuild(const Body& body, ThreadTeam& team) {
   const bool plane = body.dimension() == 2;
-  for_blocks(threads, body.particles, [&](std::int64_t, std::int64_t first, std::int64_t last) {
+  for_blocks(team, body.particles, [&](std::int64_t, std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i) plane ? rebuild_row_of<2>(i) : rebuild_row_of<3>(i);
   });
-  for_blocks(threads, bonds, [&](std::int64_t, std::int64_t first, std::int64_t last) {
+  for_blocks(team, bonds, [&](std::int64_t, std::int64_t first, std::int64_t last) {
     for (std::int64_t b = first; b < last; ++b) {
       const Vec<3> d = difference<3>(X, ends[2 * b], ends[2 * b + 1]);  // in two dimensions X3 = 0
       length[b] = std::sqrt(dot(d, d));

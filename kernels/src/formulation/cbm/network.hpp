@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/gradient_operator.hpp"
+#include "core/thread_team.hpp"
 #include "formulation/cbm/bonds.hpp"
 #include "model/body.hpp"
 
@@ -21,7 +22,7 @@ class Network {
   // except critical strains, and builds all rows. Throws BAD_SIMPLEX.
   void build(Body& body);
   // Rows of all particles from the live simplices, and bond lengths.
-  void rebuild(const Body& body, int threads);
+  void rebuild(const Body& body, ThreadTeam& team);
   // Row of one particle: bond vectors, weights, averaging volume.
   template <int D>
   void rebuild_row_of(std::int64_t i) {

@@ -74,8 +74,9 @@ double Stabilisation::simplex_energy(const Body& body, double volume, const Mat<
 }
 
 template <int D>
-const double* Stabilisation::bond_stress(const Body& body, const Network& network, int threads) {
-  for_blocks(threads, network.simplices, [&](std::int64_t, std::int64_t first, std::int64_t last) {
+const double* Stabilisation::bond_stress(const Body& body, const Network& network,
+                                         ThreadTeam& team) {
+  for_blocks(team, network.simplices, [&](std::int64_t, std::int64_t first, std::int64_t last) {
     for_live<D>(network, first, last,
                 [&](std::int64_t s, const std::int32_t* corners, const auto& geometry) {
                   Mat<D> stress;
@@ -85,7 +86,7 @@ const double* Stabilisation::bond_stress(const Body& body, const Network& networ
                   store_tensor(stress, simplex_stress_.data(), s);
                 });
   });
-  for_blocks(threads, body.particles, [&](std::int64_t, std::int64_t first, std::int64_t last) {
+  for_blocks(team, body.particles, [&](std::int64_t, std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i) {
       Mat<D> sum = load_tensor<D>(body.point.p, i);
       for (int r = 0; r < D; ++r)
@@ -154,13 +155,13 @@ double hourglass_energy(const Body& body, const Network& network, double shear_m
   return sum;
 }
 
-#define CLEAVE_INSTANTIATE(D)                                                                    \
-  template const double* Stabilisation::bond_stress<D>(const Body&, const Network&, int);        \
-  template void Stabilisation::add_force<D>(const Network&, std::int64_t, std::int64_t, double*) \
-      const;                                                                                     \
-  template double Stabilisation::simplex_energy<D>(const Body&, double, const Mat<D>&,           \
-                                                   const Mat<D>&, Mat<D>*) const;                \
-  template double Stabilisation::energy<D>(const Body&, const Network&) const;                   \
+#define CLEAVE_INSTANTIATE(D)                                                                     \
+  template const double* Stabilisation::bond_stress<D>(const Body&, const Network&, ThreadTeam&); \
+  template void Stabilisation::add_force<D>(const Network&, std::int64_t, std::int64_t, double*)  \
+      const;                                                                                      \
+  template double Stabilisation::simplex_energy<D>(const Body&, double, const Mat<D>&,            \
+                                                   const Mat<D>&, Mat<D>*) const;                 \
+  template double Stabilisation::energy<D>(const Body&, const Network&) const;                    \
   template double hourglass_energy<D>(const Body&, const Network&, double);
 CLEAVE_INSTANTIATE(2)
 CLEAVE_INSTANTIATE(3)

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/thread_team.hpp"
 #include "formulation/cbm/network.hpp"
 #include "formulation/cbm/parameters.hpp"
 
@@ -27,7 +28,7 @@ class Stabilisation {
 
   // The stress that enters the bond force; valid until the next call. Fills S_L of live simplices.
   template <int D>
-  const double* bond_stress(const Body& body, const Network& network, int threads);
+  const double* bond_stress(const Body& body, const Network& network, ThreadTeam& team);
   // f_a -= S_L g_a over the live simplices of first <= a < last.
   template <int D>
   void add_force(const Network& network, std::int64_t first, std::int64_t last, double* f) const;

@@ -1,15 +1,15 @@
 #include "formulation/common/stress_points.hpp"
 
 #include "core/error.hpp"
-#include "material/stress.hpp"
+#include "material/stress_dispatch.hpp"
 
 namespace cleave {
 
 namespace {
 
 template <int D>
-void gradients_in(Body& body, const GradientOperator& g, int threads) {
-  for_blocks(threads, body.points, [&](std::int64_t, std::int64_t first, std::int64_t last) {
+void gradients_in(Body& body, const GradientOperator& g, ThreadTeam& team) {
+  for_blocks(team, body.points, [&](std::int64_t, std::int64_t first, std::int64_t last) {
     displacement_gradient<D>(g, body.point.u, first, last, body.point.h);
     for (std::int64_t q = first; q < last; ++q) {
       body.point.ratio[q] = determinant(plus_identity(load_tensor<D>(body.point.h, q)));
@@ -41,33 +41,49 @@ void StressPoints::setup(const Body& body) {
   dissipated_.resize(body.points);
 }
 
-void StressPoints::gradients(Body& body, const GradientOperator& g, int threads) const {
-  body.dimension() == 2 ? gradients_in<2>(body, g, threads) : gradients_in<3>(body, g, threads);
+void StressPoints::gradients(Body& body, const GradientOperator& g, ThreadTeam& team) const {
+  body.dimension() == 2 ? gradients_in<2>(body, g, team) : gradients_in<3>(body, g, team);
 }
 
-void StressPoints::deform(Body& body, const GradientOperator& g, const Clock& clock, int threads) {
-  gradients(body, g, threads);
+void StressPoints::deform(Body& body, const GradientOperator& g, const Clock& clock,
+                          ThreadTeam& team) {
+  gradients(body, g, team);
   const StressArrays arrays = stress_arrays(body, clock);
-  with_law(body.material, [&](const auto& law) {
-    for_blocks(
-        threads, body.points, [&](std::int64_t block, std::int64_t first, std::int64_t last) {
-          const StressResult r = body.dimension() == 2 ? update_stress<2>(law, arrays, first, last)
-                                                       : update_stress<3>(law, arrays, first, last);
-          failed_[static_cast<std::size_t>(block)] = r.first_failed;
-          dissipated_[block] = {r.plastic, r.viscous};
-        });
+  for_blocks(team, body.points, [&](std::int64_t block, std::int64_t first, std::int64_t last) {
+    const StressResult r = update_stress(body.material, body.dimension(), arrays, first, last);
+    failed_[static_cast<std::size_t>(block)] = r.first_failed;
+    dissipated_[block] = {r.plastic, r.viscous};
   });
   const auto [plastic, viscous] = dissipated_.total();
   body.point.ledger[ledger::kPlastic] += plastic;
   body.point.ledger[ledger::kShock] += viscous;
   for (const std::int64_t q : failed_) {
-    if (q < 0) continue;
-    throw Error(CLEAVE_BAD_JACOBIAN,
-                text(body.label(), ": law ", body.law->name, " has no answer at ",
-                     point_label(body, g, q), " (det F = ", body.point.ratio[q],
-                     "); the deformation is outside its range: use a smaller step, "
-                     "stabilisation, or another law"));
+    if (q >= 0) refuse(body, g, q);
   }
+}
+
+void StressPoints::refuse(const Body& body, const GradientOperator& g, std::int64_t q) const {
+  throw Error(CLEAVE_BAD_JACOBIAN,
+              text(body.label(), ": law ", body.law->name, " has no answer at ",
+                   point_label(body, g, q), " (det F = ", body.point.ratio[q],
+                   "); the deformation is outside its range: use a smaller step, "
+                   "stabilisation, or another law"));
+}
+
+void StressPoints::observe(Body& body, ThreadTeam& team) const {
+  const StressArrays arrays = stress_arrays(body, Clock{});
+  for_blocks(team, body.points, [&](std::int64_t, std::int64_t first, std::int64_t last) {
+    // The law advances a copy.
+    StressArrays trial = arrays;
+    std::vector<double> copy[kMaxHistory];
+    for (std::size_t k = 0; k < body.law->history.size(); ++k) {
+      const std::int64_t stride = arrays.history.stride[k];
+      const double* from = arrays.history.base[k];
+      copy[k].assign(from + stride * first, from + stride * last);
+      trial.history.base[k] = copy[k].data() - stride * first;
+    }
+    update_stress(body.material, body.dimension(), trial, first, last);
+  });
 }
 
 double StressPoints::stored_energy(const Body& body) const {

@@ -7,6 +7,7 @@
 
 #include "core/blocks.hpp"
 #include "core/gradient_operator.hpp"
+#include "core/thread_team.hpp"
 #include "model/body.hpp"
 
 namespace cleave {
@@ -17,10 +18,15 @@ class StressPoints {
   void setup(const Body& body);
 
   // H and det F of all points from the displacements.
-  void gradients(Body& body, const GradientOperator& g, int threads) const;
+  void gradients(Body& body, const GradientOperator& g, ThreadTeam& team) const;
   // The same, then the stress; books what plastic flow and the law's viscosity dissipate. Throws
   // BAD_JACOBIAN naming the first point whose law has no answer.
-  void deform(Body& body, const GradientOperator& g, const Clock& clock, int threads);
+  void deform(Body& body, const GradientOperator& g, const Clock& clock, ThreadTeam& team);
+  // Throws BAD_JACOBIAN for a point whose law has no answer; det F is current.
+  [[noreturn]] void refuse(const Body& body, const GradientOperator& g, std::int64_t q) const;
+  // Stress and energy of all points from the present gradient and history, which is left alone: for laws
+  // that answer by the state alone.
+  void observe(Body& body, ThreadTeam& team) const;
   // sum of Omega psi [J]
   double stored_energy(const Body& body) const;
   // Points with volume and det F <= 0.

@@ -171,18 +171,18 @@ void FiniteElements::setup(Body& body) {
                  }));
 }
 
-void FiniteElements::rebuild(Body& body, int threads) {
-  points_.gradients(body, operator_, threads);
+void FiniteElements::rebuild(Body& body, ThreadTeam& team) {
+  points_.gradients(body, operator_, team);
 }
 
 double FiniteElements::stable_step(const Body&) const { return stable_step_; }
 
-void FiniteElements::deform(Body& body, const Clock& clock, int threads) {
-  points_.deform(body, operator_, clock, threads);
+void FiniteElements::deform(Body& body, const Clock& clock, ThreadTeam& team) {
+  points_.deform(body, operator_, clock, team);
 }
 
-void FiniteElements::forces(Body& body, int threads) {
-  for_blocks(threads, body.particles, [&](std::int64_t, std::int64_t first, std::int64_t last) {
+void FiniteElements::forces(Body& body, ThreadTeam& team) {
+  for_blocks(team, body.particles, [&](std::int64_t, std::int64_t first, std::int64_t last) {
     std::fill(body.point.internal + kVector * first, body.point.internal + kVector * last, 0.0);
     body.dimension() == 2
         ? internal_force<2>(operator_, body.point.p, first, last, body.point.internal)

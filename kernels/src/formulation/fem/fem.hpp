@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "core/thread_team.hpp"
 #include "formulation/common/stress_points.hpp"
 #include "model/formulation.hpp"
 
@@ -15,13 +16,13 @@ class FiniteElements final : public Formulation {
   const char* name() const override { return "fem"; }
   std::int64_t integration_points(const Body& body) const override;
   void setup(Body& body) override;
-  void rebuild(Body& body, int threads) override;
+  void rebuild(Body& body, ThreadTeam& team) override;
   double stable_step(const Body& body) const override;
   const GradientOperator* gradient_operator() const override { return &operator_; }
 
-  void break_bonds(Body&, const Clock&, int) override {}
-  void deform(Body& body, const Clock& clock, int threads) override;
-  void forces(Body& body, int threads) override;
+  void break_bonds(Body&, const Clock&, ThreadTeam&) override {}
+  void deform(Body& body, const Clock& clock, ThreadTeam& team) override;
+  void forces(Body& body, ThreadTeam& team) override;
   void precrack(Body& body, std::span<const std::int64_t> pairs) override;
 
   StoredEnergy stored_energy(const Body& body) const override;

@@ -68,9 +68,9 @@ std::vector<double> KernelMethod::setup_viscosity(const Body& body) {
   return gradient_.bond_weights();
 }
 
-void KernelMethod::rebuild(Body& body, int threads) {
-  gradient_.rebuild(body, threads);
-  points_.gradients(body, operator_, threads);
+void KernelMethod::rebuild(Body& body, ThreadTeam& team) {
+  gradient_.rebuild(body, team);
+  points_.gradients(body, operator_, team);
 }
 
 std::string KernelMethod::static_obstacle(const Body&) const {
@@ -78,30 +78,29 @@ std::string KernelMethod::static_obstacle(const Body&) const {
                              : "";
 }
 
-void KernelMethod::deform(Body& body, const Clock& clock, int threads) {
+void KernelMethod::deform(Body& body, const Clock& clock, ThreadTeam& team) {
   dt_ = clock.dt;
-  points_.deform(body, operator_, clock, threads);
+  points_.deform(body, operator_, clock, team);
 }
 
 template <int D>
-void KernelMethod::forces_in(Body& body, int threads) {
+void KernelMethod::forces_in(Body& body, ThreadTeam& team) {
   const PointArrays& pt = body.point;
   const ViscousArrays viscous{bond_weight_.data(), pt.x, pt.v, pt.h, pt.ratio, pt.viscous};
-  for_blocks(
-      threads, body.particles, [&](std::int64_t block, std::int64_t first, std::int64_t last) {
-        double* internal = body.point.internal;
-        std::fill(internal + kVector * first, internal + kVector * last, 0.0);
-        std::fill(body.point.viscous + kVector * first, body.point.viscous + kVector * last, 0.0);
-        internal_force<D>(operator_, body.point.p, first, last, internal);
-        power_[block] = {hourglass_.active() ? hourglass_.add_force<D>(body, operator_, first, last)
-                                             : 0.0};
-        viscous_force<D>(viscosity_, operator_, bond_rate_, viscous, first, last);
-      });
+  for_blocks(team, body.particles, [&](std::int64_t block, std::int64_t first, std::int64_t last) {
+    double* internal = body.point.internal;
+    std::fill(internal + kVector * first, internal + kVector * last, 0.0);
+    std::fill(body.point.viscous + kVector * first, body.point.viscous + kVector * last, 0.0);
+    internal_force<D>(operator_, body.point.p, first, last, internal);
+    power_[block] = {hourglass_.active() ? hourglass_.add_force<D>(body, operator_, first, last)
+                                         : 0.0};
+    viscous_force<D>(viscosity_, operator_, bond_rate_, viscous, first, last);
+  });
   hourglass_.book(power_.total()[0], dt_);
 }
 
-void KernelMethod::forces(Body& body, int threads) {
-  body.dimension() == 2 ? forces_in<2>(body, threads) : forces_in<3>(body, threads);
+void KernelMethod::forces(Body& body, ThreadTeam& team) {
+  body.dimension() == 2 ? forces_in<2>(body, team) : forces_in<3>(body, team);
 }
 
 void KernelMethod::precrack(Body& body, std::span<const std::int64_t>) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/blocks.hpp"
+#include "core/thread_team.hpp"
 #include "formulation/cbm/parameters.hpp"
 #include "formulation/common/stress_points.hpp"
 #include "formulation/common/viscosity.hpp"
@@ -17,14 +18,14 @@ namespace cleave::meshless {
 class KernelMethod : public Formulation {
  public:
   void setup(Body& body) override;
-  void rebuild(Body& body, int threads) override;
+  void rebuild(Body& body, ThreadTeam& team) override;
   double stable_step(const Body&) const override { return stable_step_; }
   const GradientOperator* gradient_operator() const override { return &operator_; }
   std::string static_obstacle(const Body& body) const override;
 
-  void break_bonds(Body&, const Clock&, int) override {}
-  void deform(Body& body, const Clock& clock, int threads) override;
-  void forces(Body& body, int threads) override;
+  void break_bonds(Body&, const Clock&, ThreadTeam&) override {}
+  void deform(Body& body, const Clock& clock, ThreadTeam& team) override;
+  void forces(Body& body, ThreadTeam& team) override;
   void precrack(Body& body, std::span<const std::int64_t> pairs) override;
 
   StoredEnergy stored_energy(const Body& body) const override;
@@ -44,7 +45,7 @@ class KernelMethod : public Formulation {
  private:
   std::vector<double> setup_viscosity(const Body& body);
   template <int D>
-  void forces_in(Body& body, int threads);
+  void forces_in(Body& body, ThreadTeam& team);
 
   KernelGradient gradient_;
   GradientOperator operator_;

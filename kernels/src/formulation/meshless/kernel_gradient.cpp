@@ -44,7 +44,8 @@ void KernelGradient::build(Body& body, const Kernel& kernel) {
   body.fields.allocate(CLEAVE_RELATION_BOND, half_bonds() / 2);
   zeta = body.fields.real("bond_vector");
   singular_.resize(static_cast<std::size_t>(block_count(body.particles)));
-  rebuild(body, 1);
+  ThreadTeam alone;
+  rebuild(body, alone);
   for (const std::int64_t i : singular_) {
     if (i >= 0) refuse(body, i);
   }
@@ -153,18 +154,17 @@ bool KernelGradient::weigh(std::int64_t i) {
   return true;
 }
 
-void KernelGradient::rebuild(const Body& body, int threads) {
+void KernelGradient::rebuild(const Body& body, ThreadTeam& team) {
   sum_volumes(body);
   const bool plane = body.dimension() == 2;
-  for_blocks(threads, body.particles,
-             [&](std::int64_t block, std::int64_t first, std::int64_t last) {
-               std::int64_t& singular = singular_[static_cast<std::size_t>(block)];
-               singular = -1;
-               for (std::int64_t i = first; i < last; ++i) {
-                 const bool regular = plane ? weigh<2>(i) : weigh<3>(i);
-                 if (!regular && singular < 0) singular = i;
-               }
-             });
+  for_blocks(team, body.particles, [&](std::int64_t block, std::int64_t first, std::int64_t last) {
+    std::int64_t& singular = singular_[static_cast<std::size_t>(block)];
+    singular = -1;
+    for (std::int64_t i = first; i < last; ++i) {
+      const bool regular = plane ? weigh<2>(i) : weigh<3>(i);
+      if (!regular && singular < 0) singular = i;
+    }
+  });
 }
 
 std::vector<double> KernelGradient::pair_values(

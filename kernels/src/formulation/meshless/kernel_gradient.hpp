@@ -13,6 +13,7 @@
 
 #include "core/cell_list.hpp"
 #include "core/gradient_operator.hpp"
+#include "core/thread_team.hpp"
 #include "formulation/meshless/parameters.hpp"
 #include "model/body.hpp"
 
@@ -35,7 +36,7 @@ class KernelGradient {
   // Throws for simplices and particles that cannot be used.
   void build(Body& body, const Kernel& kernel);
   // Volumes and weights again, from the fields.
-  void rebuild(const Body& body, int threads);
+  void rebuild(const Body& body, ThreadTeam& team);
 
   GradientOperator gradient() const {
     return {.row_begin = rows.row_begin.data(),

@@ -1,0 +1,272 @@
+#include "formulation/cbm/block_network.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cleave::cbm {
+
+namespace {
+
+// The pass over a block's bonds and the stress stay in a core's cache up to this size; small bodies get
+// smaller blocks, so that there are enough of them for a few threads.
+constexpr std::int64_t kBlockParticles = 2048, kSmallBlock = 64, kFewBlocks = 16;
+
+std::int64_t number_of_blocks(std::int64_t n) {
+  const std::int64_t by_size = (n + kBlockParticles - 1) / kBlockParticles;
+  return std::max<std::int64_t>({1, by_size, std::min(kFewBlocks, n / kSmallBlock)});
+}
+
+// zeta_ip + zeta_pi of an inner bond is the rounding of two sums of a few terms, that of a bond on a surface
+// the area of a facet.
+constexpr double kTwin = 1e-13;
+
+std::size_t at(std::int64_t k) { return static_cast<std::size_t>(k); }
+
+bool is_zero(const double* zeta, int dimension) {
+  for (int k = 0; k < dimension; ++k)
+    if (zeta[k] != 0) return false;
+  return true;
+}
+
+bool is_twin(const double* zeta, const double* back, int dimension) {
+  double largest = 0, off = 0;
+  for (int k = 0; k < dimension; ++k) {
+    largest = std::fmax(largest, std::fabs(zeta[k]));
+    off = std::fmax(off, std::fabs(zeta[k] + back[k]));
+  }
+  return off <= kTwin * largest;
+}
+
+// A little below the square of the length at which the bond of a half-bond breaks; 0 where that is no
+// number of this precision, so that the bond itself is asked.
+float limit_of(const Network& network, std::int32_t half) {
+  const std::int32_t bond = network.bond_of_half[at(half)];
+  const double limit = (1 + network.critical[bond]) * network.length[bond];
+  const double square = limit * limit * (1 - 1e-7);
+  if (!(square < std::numeric_limits<double>::infinity()))
+    return std::numeric_limits<float>::infinity();
+  if (!(square < std::numeric_limits<float>::max()) || square < std::numeric_limits<float>::min())
+    return 0;
+  return std::nextafter(static_cast<float>(square), 0.0F);
+}
+
+void clear(BlockBonds& bonds) {
+  bonds.begin.clear();
+  bonds.end.clear();
+  bonds.zeta.clear();
+  bonds.weight.clear();
+  bonds.square_limit.clear();
+}
+
+template <class T>
+void fit(std::vector<T>& list, std::int64_t capacity) {
+  list.shrink_to_fit();
+  list.reserve(at(capacity));
+}
+void fit(BlockBonds& bonds, int dimension, std::int64_t capacity, bool weights, bool limits) {
+  fit(bonds.end, capacity);
+  fit(bonds.zeta, dimension * capacity + 4);
+  fit(bonds.weight, weights ? capacity : 0);
+  fit(bonds.square_limit, limits ? capacity : 0);
+}
+
+template <class T>
+void append(const std::vector<T>& from, std::int32_t first, std::int32_t last, std::vector<T>& to) {
+  to.insert(to.end(), from.begin() + first, from.begin() + last);
+}
+
+std::int64_t bytes_of(const BlockBonds& b) {
+  return static_cast<std::int64_t>(
+      b.begin.size() * sizeof(std::int32_t) + b.end.size() * sizeof(std::uint16_t) +
+      b.square_limit.size() * sizeof(float) + (b.zeta.size() + b.weight.size()) * sizeof(double));
+}
+
+}  // namespace
+
+void BlockNetwork::order_particles(const Body& body, const Network& network) {
+  const std::int64_t n = body.particles;
+  Blocking cut = bisect(body.point.X, n, body.dimension(), number_of_blocks(n));
+  given = std::move(cut.order);
+  block_of_.assign(at(n), 0);
+  blocks.assign(at(cut.blocks()), {});
+  std::vector<std::int32_t> owner(at(n));
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    blocks[b].first = cut.begin[b];
+    blocks[b].own = cut.begin[b + 1] - cut.begin[b];
+    for (std::int32_t p = cut.begin[b]; p < cut.begin[b + 1]; ++p) {
+      block_of_[at(p)] = static_cast<std::int32_t>(b);
+      owner[at(given[at(p)])] = static_cast<std::int32_t>(b);
+    }
+  }
+  for (Block& block : blocks) {
+    const auto on_surface = [&](std::int32_t i) {
+      for (std::int32_t h = network.row_begin[at(i)]; h < network.row_begin[at(i) + 1]; ++h)
+        if (owner[at(network.neighbour[at(h)])] != owner[at(i)]) return true;
+      return false;
+    };
+    const auto first = given.begin() + block.first;
+    block.surface = static_cast<std::int32_t>(
+        std::stable_partition(first, first + block.own, on_surface) - first);
+  }
+  place.resize(at(n));
+  for (std::int64_t p = 0; p < n; ++p) place[at(given[at(p)])] = static_cast<std::int32_t>(p);
+}
+
+void BlockNetwork::find_foreign(const Network& network, Block& block) const {
+  block.foreign.clear();
+  for (std::int32_t p = block.first; p < block.first + block.surface; ++p) {
+    const auto i = at(given[at(p)]);
+    for (std::int32_t h = network.row_begin[i]; h < network.row_begin[i + 1]; ++h) {
+      const std::int32_t q = place[at(network.neighbour[at(h)])];
+      if (q < block.first || q >= block.first + block.own) block.foreign.push_back(q);
+    }
+  }
+  std::sort(block.foreign.begin(), block.foreign.end());
+  block.foreign.erase(std::unique(block.foreign.begin(), block.foreign.end()), block.foreign.end());
+  block.foreign.shrink_to_fit();
+  block.beside.clear();
+  for (const std::int32_t q : block.foreign) block.beside.push_back(block_of(q));
+  std::sort(block.beside.begin(), block.beside.end());
+  block.beside.erase(std::unique(block.beside.begin(), block.beside.end()), block.beside.end());
+}
+
+void BlockNetwork::collect_incoming() {
+  slots = 0;
+  incoming_begin.assign(place.size() + 1, 0);
+  for (Block& block : blocks) {
+    block.slot = slots;
+    slots += static_cast<std::int64_t>(block.foreign.size());
+    for (const std::int32_t q : block.foreign) ++incoming_begin[at(q) + 1];
+  }
+  for (std::size_t p = 1; p < incoming_begin.size(); ++p)
+    incoming_begin[p] += incoming_begin[p - 1];
+  incoming.resize(at(slots));
+  std::vector<std::int32_t> next(incoming_begin.begin(), incoming_begin.end() - 1);
+  for (const Block& block : blocks) {
+    for (std::size_t k = 0; k < block.foreign.size(); ++k) {
+      incoming[at(next[at(block.foreign[k])]++)] =
+          static_cast<std::int32_t>(block.slot + static_cast<std::int64_t>(k));
+    }
+  }
+}
+
+void BlockNetwork::make_row(const Network& network, int dimension, const Block& block,
+                            std::int32_t l, Workspace& work) const {
+  const auto local = [&](std::int32_t q) {
+    if (q >= block.first && q < block.first + block.own) return q - block.first;
+    const auto found = std::lower_bound(block.foreign.begin(), block.foreign.end(), q);
+    return block.own + static_cast<std::int32_t>(found - block.foreign.begin());
+  };
+  const auto add = [&](BlockBonds& bonds, const Entry& e, const double* zeta) {
+    bonds.end.push_back(static_cast<std::uint16_t>(e.local));
+    bonds.zeta.insert(bonds.zeta.end(), zeta, zeta + dimension);
+    if (with_weights_) bonds.weight.push_back(network.weight[e.half]);
+    if (with_limits_) bonds.square_limit.push_back(limit_of(network, e.half));
+  };
+  const auto i = at(given[at(block.first + l)]);
+  std::vector<Entry>& row = work.row;
+  row.clear();
+  for (std::int32_t h = network.row_begin[i]; h < network.row_begin[i + 1]; ++h)
+    row.push_back({local(place[at(network.neighbour[at(h)])]), h});
+  std::sort(row.begin(), row.end(),
+            [](const Entry& a, const Entry& b) { return a.local < b.local; });
+  for (const Entry& e : row) {
+    const double* zeta = network.zeta + kVector * e.half;
+    const double* back = network.zeta + kVector * network.reverse[at(e.half)];
+    if (is_zero(zeta, dimension)) continue;  // no live simplex left
+    if (e.local < block.own && is_twin(zeta, back, dimension)) {
+      if (e.local > l) add(work.twins, e, zeta);
+    } else {
+      add(work.halves, e, zeta);
+    }
+  }
+}
+
+void BlockNetwork::rebuild(const Network& network, int dimension, const char* changed, Block& block,
+                           Workspace& work) const {
+  clear(work.twins);
+  clear(work.halves);
+  const auto begin_row = [](BlockBonds& bonds) {
+    bonds.begin.push_back(static_cast<std::int32_t>(bonds.count()));
+  };
+  const auto copy_row = [&](const BlockBonds& from, std::int32_t l, BlockBonds& to) {
+    const std::int32_t first = from.begin[at(l)], last = from.begin[at(l) + 1];
+    append(from.end, first, last, to.end);
+    append(from.zeta, dimension * first, dimension * last, to.zeta);
+    if (with_weights_) append(from.weight, first, last, to.weight);
+    if (with_limits_) append(from.square_limit, first, last, to.square_limit);
+  };
+  for (std::int32_t l = 0; l < block.own; ++l) {
+    begin_row(work.twins);
+    begin_row(work.halves);
+    if (changed == nullptr || changed[block.first + l] != 0) {
+      make_row(network, dimension, block, l, work);
+    } else {
+      copy_row(block.twins, l, work.twins);
+      copy_row(block.halves, l, work.halves);
+    }
+  }
+  for (BlockBonds* bonds : {&work.twins, &work.halves}) {
+    begin_row(*bonds);
+    bonds->zeta.resize(bonds->zeta.size() + 4, 0.0);
+  }
+  // Copied, not swapped: a block keeps the memory that was reserved for it.
+  block.twins = work.twins;
+  block.halves = work.halves;
+}
+
+// Room for the rows of any block, each bond a half at both ends.
+void BlockNetwork::reserve(Workspace& work, int dimension) const {
+  std::int64_t bonds = 0, rows = 0;
+  for (const Block& block : blocks) {
+    bonds = std::max(bonds, 2 * block.twins.count() + block.halves.count());
+    rows = std::max<std::int64_t>(rows, block.own + 1);
+  }
+  work.row.reserve(at(longest_row));
+  for (BlockBonds* b : {&work.twins, &work.halves}) {
+    b->begin.reserve(at(rows));
+    fit(*b, dimension, bonds, with_weights_, with_limits_);
+  }
+}
+
+bool BlockNetwork::build(const Body& body, const Network& network, bool with_weights,
+                         bool with_limits, ThreadTeam& team) {
+  with_weights_ = with_weights;
+  with_limits_ = with_limits;
+  order_particles(body, network);
+  team.for_blocks(static_cast<std::int64_t>(blocks.size()),
+                  [&](std::int64_t b) { find_foreign(network, blocks[at(b)]); });
+  largest = 0;
+  for (const Block& block : blocks) largest = std::max(largest, block.locals());
+  if (largest > std::numeric_limits<std::uint16_t>::max()) return false;
+  longest_row = 0;
+  for (std::size_t i = 0; i + 1 < network.row_begin.size(); ++i)
+    longest_row = std::max(longest_row, network.row_begin[i + 1] - network.row_begin[i]);
+  collect_incoming();
+  team.for_blocks(static_cast<std::int64_t>(blocks.size()), [&](std::int64_t b) {
+    Block& block = blocks[at(b)];
+    Workspace work;
+    rebuild(network, body.dimension(), nullptr, block, work);
+    // A twin that breaks open becomes two halves. What is reserved and not used costs no memory.
+    const std::int64_t halves = block.halves.count() + (with_limits ? 2 * block.twins.count() : 0);
+    fit(block.twins, body.dimension(), block.twins.count(), with_weights, with_limits);
+    fit(block.halves, body.dimension(), halves, with_weights, with_limits);
+  });
+  return true;
+}
+
+std::int64_t BlockNetwork::bytes() const {
+  std::int64_t sum =
+      static_cast<std::int64_t>((given.capacity() + place.capacity() + block_of_.capacity() +
+                                 incoming_begin.capacity() + incoming.capacity()) *
+                                sizeof(std::int32_t));
+  for (const Block& block : blocks) {
+    sum += static_cast<std::int64_t>((block.foreign.capacity() + block.beside.capacity()) *
+                                     sizeof(std::int32_t)) +
+           bytes_of(block.twins) + bytes_of(block.halves);
+  }
+  return sum;
+}
+
+}  // namespace cleave::cbm

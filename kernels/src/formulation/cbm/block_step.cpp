@@ -1,0 +1,303 @@
+#include "formulation/cbm/block_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "material/stress_dispatch.hpp"
+
+namespace cleave::cbm {
+
+namespace {
+
+// Points that are given to the law at once: their gradients and stresses stay in the first-level cache.
+constexpr std::int32_t kBatch = 64;
+
+std::size_t at(std::int64_t k) { return static_cast<std::size_t>(k); }
+
+}  // namespace
+
+double BlockStep::total(std::int64_t component) const {
+  const double bonds = f_[at(component)] + (fv_.empty() ? 0.0 : fv_[at(component)]);
+  return has_external_ ? bonds + fe_[at(component)] : bonds;
+}
+
+void BlockStep::add_power(std::int64_t component, PowerSums& powers) const {
+  const double v = v_[at(component)];
+  powers.internal += f_[at(component)] * v;
+  if (!fv_.empty()) powers.viscous += fv_[at(component)] * v;
+  if (has_external_) powers.external += fe_[at(component)] * v;
+}
+
+MotionArrays BlockStep::motion() {
+  return {u_.data(),
+          v_.data(),
+          f_.data(),
+          fv_.empty() ? nullptr : fv_.data(),
+          has_external_ ? fe_.data() : nullptr,
+          inverse_mass_.data(),
+          is_driven_.data()};
+}
+
+template <int D>
+void BlockStep::advance_in(Body& body, double dt) {
+  PowerSums driven{};
+  const double reaction = advance_driven<D>(body, dt, driven);
+  team_->for_blocks(static_cast<std::int64_t>(net_.blocks.size()), [&](std::int64_t b) {
+    const Block& block = net_.blocks[at(b)];
+    results_[at(b)].powers = kernels_->advance[D - 2](
+        motion(), block.first, block.first + block.own, 0.5 * dt, dt, boxes_[at(b)]);
+  });
+  book(body, dt, driven, reaction);
+  search_.moved(net_, boxes_, dt);
+}
+
+// Power of the forces that keep the motion [W]; the others' is added to `powers`.
+template <int D>
+double BlockStep::advance_driven(Body& body, double dt, PowerSums& powers) {
+  double reaction = 0;
+  for (const Driven& d : driven_) {
+    for (int k = 0; k < D; ++k) {
+      const std::int64_t c = D * static_cast<std::int64_t>(d.place) + k;
+      const PrescribedDof* dof = d.dof[at(k)] < 0 ? nullptr : &body.prescribed[at(d.dof[at(k)])];
+      const double a = dof != nullptr ? d.a[at(k)] : total(c) * inverse_mass_[at(d.place)];
+      const bool exact = dof != nullptr && dof->motion == CLEAVE_MOTION_EXACT;
+      double& v = v_[at(c)];
+      v = exact ? (dof->displacement - u_[at(c)]) / dt : v + 0.5 * dt * a;
+      add_power(c, powers);
+      if (dof != nullptr) reaction += (body.point.mass[dof->particle] * a - total(c)) * v;
+      u_[at(c)] = exact ? dof->displacement : u_[at(c)] + dt * v;
+    }
+  }
+  return reaction;
+}
+
+// Half of the trapezoid of the works.
+void BlockStep::book(Body& body, double dt, PowerSums powers, double reaction) const {
+  for (const BlockResult& r : results_) {
+    powers.internal += r.powers.internal;
+    powers.viscous += r.powers.viscous;
+    powers.external += r.powers.external;
+  }
+  double* entry = body.point.ledger;
+  const double half = 0.5 * dt;
+  entry[ledger::kInternal] -= half * powers.internal;
+  entry[ledger::kViscous] -= half * powers.viscous;
+  entry[ledger::kExternal] += half * powers.external;
+  entry[ledger::kReaction] += half * reaction;
+}
+
+// Vectors of own and foreign particles beside each other.
+template <int D>
+void BlockStep::gather(const Block& block, Scratch& s) const {
+  const auto copy = [&](const std::vector<double>& from, std::vector<double>& to) {
+    const double* own = from.data() + D * static_cast<std::int64_t>(block.first);
+    for (std::int64_t l = 0; l < block.own; ++l)
+      for (int k = 0; k < D; ++k) to[at(kStride<D> * l + k)] = own[D * l + k];
+    std::int64_t l = block.own;
+    for (const std::int32_t q : block.foreign) {
+      for (int k = 0; k < D; ++k)
+        to[at(kStride<D> * l + k)] = from[at(D * static_cast<std::int64_t>(q) + k)];
+      ++l;
+    }
+  };
+  copy(u_, s.u);
+  const std::int64_t locals = kStride<D> * static_cast<std::int64_t>(block.locals());
+  std::fill_n(s.rows.begin(), D * kStride<D> * static_cast<std::int64_t>(block.own), 0.0);
+  std::fill_n(s.f.begin(), locals, 0.0);
+  if (parts_.viscosity == nullptr) return;
+  copy(X_, s.X);
+  for (std::int64_t c = 0; c < locals; ++c) s.x[at(c)] = s.X[at(c)] + s.u[at(c)];
+  copy(v_, s.v);
+  std::fill_n(s.fv.begin(), locals, 0.0);
+}
+
+namespace {
+
+BlockRows rows_of(const BlockBonds& b) {
+  return {b.begin.data(), b.end.data(), b.zeta.data(), b.weight.data()};
+}
+
+// det F of points, not below zero.
+template <int D>
+void clipped_ratio(const double* h, std::int64_t count, double* ratio) {
+  for (std::int64_t q = 0; q < count; ++q) {
+    const double J = determinant(plus_identity(load_tensor<D>(h, q)));
+    ratio[q] = J > 0 ? J : 0.0;
+  }
+}
+
+}  // namespace
+
+template <int D>
+void BlockStep::form_block(const Body& body, std::int32_t b, const Clock& clock, Scratch& s) {
+  const Block& block = net_.blocks[at(b)];
+  BlockResult& result = results_[at(b)];
+  result = {};
+  gather<D>(block, s);
+  const bool stored = !P_.empty();
+  BlockArrays a{};
+  a.own = block.own;
+  a.twins = rows_of(block.twins);
+  a.halves = rows_of(block.halves);
+  a.u = s.u.data();
+  a.rows = s.rows.data();
+  a.volume = volume_.data() + block.first;
+  double* P = stored ? P_.data() + kTensor * block.first : s.P.data();
+  a.P = P;
+  a.f = s.f.data();
+  StressArrays points;
+  points.h = s.h.data();
+  points.dt = clock.dt;
+  for (std::int32_t i = 0; i < block.own; i += kBatch) {
+    const std::int32_t count = std::min(kBatch, block.own - i);
+    kernels_->gradient[D - 2](a, i, i + count, s.h.data());
+    if (parts_.viscosity != nullptr) clipped_ratio<D>(s.h.data(), count, s.J.data() + i);
+    if (watch_) {
+      result.square_strain =
+          std::fmax(result.square_strain, kernels_->square_strain[D - 2](s.h.data(), count));
+    }
+    points.volume = a.volume + i;
+    points.p = P + kTensor * i;
+    points.energy = stored ? energy_.data() + block.first + i : nullptr;
+    for (std::size_t k = 0; k < history_.size(); ++k) {
+      points.history.stride[k] = body.history.stride[k];
+      points.history.base[k] = history_[k].data() + body.history.stride[k] * (block.first + i);
+    }
+    const StressResult r = update_stress(body.material, D, points, 0, count);
+    result.plastic += r.plastic;
+    result.shock += r.viscous;
+    if (r.first_failed >= 0 && result.failed < 0) result.failed = i + r.first_failed;
+  }
+  kernels_->force[D - 2](a);
+  if (parts_.viscosity == nullptr) return;
+  a.x = s.x.data();
+  a.v = s.v.data();
+  a.J = s.J.data();
+  a.fv = s.fv.data();
+  a.coefficient = parts_.viscosity->beta_rho_c;
+  a.length = parts_.viscosity->length;
+  if (parts_.viscosity->lengths != nullptr) a.X = s.X.data();
+  kernels_->viscous_force[D - 2](a);
+}
+
+// Forces of own particles to their places, of foreign ones to the slots; inner particles are finished.
+template <int D>
+void BlockStep::scatter(std::int32_t b, Scratch& s, double half) {
+  const Block& block = net_.blocks[at(b)];
+  const auto copy = [&](const std::vector<double>& from, std::vector<double>& to,
+                        std::vector<double>& slots) {
+    for (std::int64_t l = 0; l < block.own; ++l)
+      for (int k = 0; k < D; ++k) to[at(D * (block.first + l) + k)] = from[at(kStride<D> * l + k)];
+    for (std::int64_t l = block.own; l < block.locals(); ++l)
+      for (int k = 0; k < D; ++k)
+        slots[at(D * (block.slot + l - block.own) + k)] = from[at(kStride<D> * l + k)];
+  };
+  copy(s.f, f_, slots_);
+  if (!fv_.empty()) copy(s.fv, fv_, viscous_slots_);
+  results_[at(b)].powers =
+      kernels_->kick[D - 2](motion(), block.first + block.surface, block.first + block.own, half);
+}
+
+template <int D>
+void BlockStep::finish_surface(std::int32_t b, double half) {
+  const Block& block = net_.blocks[at(b)];
+  for (std::int64_t p = block.first; p < block.first + block.surface; ++p) {
+    for (std::int32_t k = net_.incoming_begin[at(p)]; k < net_.incoming_begin[at(p) + 1]; ++k) {
+      const std::int64_t slot = net_.incoming[at(k)];
+      for (int c = 0; c < D; ++c) f_[at(D * p + c)] += slots_[at(D * slot + c)];
+      if (fv_.empty()) continue;
+      for (int c = 0; c < D; ++c) fv_[at(D * p + c)] += viscous_slots_[at(D * slot + c)];
+    }
+  }
+  const PowerSums surface =
+      kernels_->kick[D - 2](motion(), block.first, block.first + block.surface, half);
+  PowerSums& powers = results_[at(b)].powers;
+  powers.internal += surface.internal;
+  powers.viscous += surface.viscous;
+  powers.external += surface.external;
+}
+
+template <int D>
+double BlockStep::finish_driven(const Body& body, double half, PowerSums& powers) {
+  double reaction = 0;
+  for (Driven& d : driven_) {
+    for (int k = 0; k < D; ++k) {
+      const std::int64_t c = D * static_cast<std::int64_t>(d.place) + k;
+      const PrescribedDof* dof = d.dof[at(k)] < 0 ? nullptr : &body.prescribed[at(d.dof[at(k)])];
+      const double a = dof != nullptr ? dof->acceleration : total(c) * inverse_mass_[at(d.place)];
+      double& v = v_[at(c)];
+      add_power(c, powers);
+      if (dof != nullptr) {
+        d.a[at(k)] = a;
+        reaction += (body.point.mass[dof->particle] * a - total(c)) * v;
+      }
+      v += half * a;
+    }
+  }
+  return reaction;
+}
+
+template <int D>
+void BlockStep::update_in(Body& body, const Clock& clock) {
+  const auto& broken = search_.find<D>(net_, parts_.network, X_.data(), u_.data(), *team_);
+  parts_.fracture.step(body, parts_.network, parts_.stabilisation, clock, broken, *this);
+  const auto blocks = static_cast<std::int64_t>(net_.blocks.size());
+  const double half = 0.5 * clock.dt;
+  team_->for_blocks(blocks, [&](std::int64_t b, int worker) {
+    Scratch& s = scratch_[at(worker)];
+    form_block<D>(body, static_cast<std::int32_t>(b), clock, s);
+    scatter<D>(static_cast<std::int32_t>(b), s, half);
+  });
+  double plastic = 0, shock = 0;
+  for (const BlockResult& r : results_) plastic += r.plastic, shock += r.shock;
+  body.point.ledger[ledger::kPlastic] += plastic;
+  body.point.ledger[ledger::kShock] += shock;
+  refuse_failed(body);
+  team_->for_blocks(blocks,
+                    [&](std::int64_t b) { finish_surface<D>(static_cast<std::int32_t>(b), half); });
+  PowerSums driven{};
+  const double reaction = finish_driven<D>(body, half, driven);
+  book(body, clock.dt, driven, reaction);
+}
+
+void BlockStep::advance(Body& body, double dt, ThreadTeam& team) {
+  prepare(body, team);
+  const bool plane = body.dimension() == 2;
+  current_.fill(false);
+  plane ? advance_in<2>(body, dt) : advance_in<3>(body, dt);
+}
+
+void BlockStep::update(Body& body, const Clock& clock, ThreadTeam& team) {
+  prepare(body, team);
+  const bool plane = body.dimension() == 2;
+  if (!external_loaded_) plane ? load_external<2>(body) : load_external<3>(body);
+  current_.fill(false);
+  watched_ = false;
+  plane ? update_in<2>(body, clock) : update_in<3>(body, clock);
+  watched_ = watch_;
+  current_.fill(false);
+}
+
+// The smallest eigenvalue of C = I + 2 E is not below 1 - |2 E|.
+double BlockStep::shortest_stretch() {
+  watch_ = true;
+  if (!watched_ || !loaded_) return 0;
+  double largest = 0;
+  for (const BlockResult& r : results_) largest = std::fmax(largest, r.square_strain);
+  return std::sqrt(std::fmax(0.0, 1 - std::sqrt(largest) * (1 + 1e-12))) * (1 - 1e-12);
+}
+
+void BlockStep::refuse_failed(Body& body) {
+  std::int32_t failed = -1;
+  for (std::size_t b = 0; b < results_.size(); ++b) {
+    if (results_[b].failed < 0) continue;
+    const std::int32_t i = net_.given[at(net_.blocks[b].first + results_[b].failed)];
+    failed = failed < 0 ? i : std::min(failed, i);
+  }
+  if (failed < 0) return;
+  current_.fill(false);
+  fetch(body, "volume_ratio");
+  parts_.points.refuse(body, parts_.network.gradient(), failed);
+}
+
+}  // namespace cleave::cbm

@@ -1,0 +1,70 @@
+"""The same decks under every value of CLEAVE_INSTRUCTION_SET: all files that a run writes have the same bytes.
+A value that is unknown is refused with the list of those that this machine runs."""
+
+import os
+import pathlib
+import re
+import subprocess
+import tempfile
+
+from run_support import PLATE, PROGRAM, check, write_deck
+
+# A bar that yields in tension and tears.
+BAR = """
+&lattice type='cubic' spacing=1 size=12,5,5 /
+&body name='bar' kinematics='3d' material='metal' /
+&material name='metal' law='j2' E=1 nu=0.3 rho=1 tau_y0=0.004 tau_inf=0.006 h0=0.001 alpha=17 /
+&fracture critical_strain=0.08 /
+&load name='low' kind='velocity' set='xmin' directions='x' value=-0.01 /
+&load name='high' kind='velocity' set='xmax' directions='x' value=0.01 /
+&output every_steps=40 /
+&history every_steps=1 /
+&checkpoint every_steps=30 /
+"""
+DECKS = {
+    "plate": ("t_end=40", PLATE + "&checkpoint every_steps=60 /\n"),
+    "bar": ("t_end=60", BAR),
+}
+
+
+def run(directory, deck, instruction_set):
+    keys, groups = DECKS[deck]
+    write_deck(directory, keys, groups)
+    environment = {name: value for name, value in os.environ.items() if name != "CLEAVE_INSTRUCTION_SET"}
+    if instruction_set is not None:
+        environment["CLEAVE_INSTRUCTION_SET"] = instruction_set
+    return subprocess.run([PROGRAM, "--quiet", "case.nml"], cwd=directory, env=environment, capture_output=True,
+                          text=True)
+
+
+def available(scratch):
+    refused = run(scratch / "refused", "plate", "mmx")
+    shown = refused.stdout + refused.stderr
+    check(refused.returncode == 2, f"an unknown set is bad input, not {refused.returncode}", shown)
+    check("CLEAVE_INSTRUCTION_SET is 'mmx'" in shown, "the message quotes the variable", shown)
+    listed = re.search(r"runs on this machine: ([a-z0-9, ]+);", shown)
+    check(listed, "the message lists what the machine runs", shown)
+    return listed.group(1).split(", ")
+
+
+def written(directory):
+    return {path.relative_to(directory): path.read_bytes() for path in sorted(directory.rglob("*")) if path.is_file()}
+
+
+with tempfile.TemporaryDirectory() as folder:
+    scratch = pathlib.Path(folder)
+    sets = available(scratch)
+    check("baseline" in sets, "the baseline always runs", sets)
+    for deck in DECKS:
+        results = {}
+        for name in [None, *sets]:
+            directory = scratch / f"{deck}-{name}"
+            done = run(directory, deck, name)
+            check(done.returncode == 0, f"{deck} with {name}", done.stdout + done.stderr)
+            results[name] = written(directory)
+        first = results["baseline"]
+        check(any("checkpoint" in str(path) for path in first), "a checkpoint was written", sorted(map(str, first)))
+        for name, files in results.items():
+            check(set(files) == set(first), f"{deck} with {name}: the same files", f"{set(files)} {set(first)}")
+            for path, content in files.items():
+                check(content == first[path], f"{deck} with {name}: the bytes of {path}")
