@@ -3,7 +3,8 @@
 // Why this one: every single-bit flip and every burst of up to 64 bits is found for certain, other
 // damage is missed with probability 2^-64; it is defined by one line, independent of byte order of the
 // machine, and others can check it (it is the CRC64 of the xz format). It is against accidents, not
-// against forgery. Measured: 1.3 GB/s on one core that was shared, more than most disks.
+// against forgery. Measured on one core that was shared: 1.1 GB/s by tables, 6.5 GB/s by
+// folding.
 #pragma once
 
 #include <cstddef>

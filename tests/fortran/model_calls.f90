@@ -51,6 +51,7 @@ contains
         [CLEAVE_MOTION_EXACT, CLEAVE_MOTION_ACCELERATION]))
     call ok(cleave_body_exempt(model, body, [2, 3, 4]))
     call ok(cleave_model_set_threads(model, 2))
+    call ok(cleave_model_set_order(model, CLEAVE_ORDER_BLOCKS))
     call ok(cleave_model_setup(model))
     call ok(cleave_field_find(model, body, 'bond_ends', field))
     allocate (ends(2, field%count))
@@ -79,12 +80,17 @@ contains
     type(cleave_model) :: model, other
     integer :: body, other_body, n, k
     real(c_double) :: stable, wave, beta, dt
+    integer(c_int32_t) :: answer
     call torn(model, dimension, body, n)
     call torn(other, dimension, other_body, n)
     call require(body == 1, 'bodies count from 1')
     call ok(cleave_model_initialise(model, 0.0_c_double))
     call ok(cleave_model_initialise(other, 0.0_c_double))
     call ok(cleave_model_stable_step(model, stable))
+    call ok(cleave_model_is_stable(model, stable, answer))
+    call require(answer == 1, 'the stable step is stable')
+    call ok(cleave_model_is_stable(model, 2 * stable, answer))
+    call require(answer == 0, 'twice the stable step is not')
     call ok(cleave_body_wave_speed(model, body, wave))
     call ok(cleave_body_get_real(model, body, 'viscosity', 'beta', beta))
     dt = 0.4_c_double * stable

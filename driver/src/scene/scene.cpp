@@ -32,7 +32,8 @@ Scene Scene::from_bodies(const Deck& deck, std::vector<BodyGeometry> bodies, int
   scene.sections_ = std::make_unique<Sections>(deck, *scene.bodies_, *scene.sets_);
   try {
     const bool by_rows = deck.one("run").text("order") == "rows";
-    scene.model_ = std::make_unique<Model>(threads, by_rows ? CLEAVE_ORDER_ROWS : CLEAVE_ORDER_BLOCKS);
+    scene.model_ =
+        std::make_unique<Model>(threads, by_rows ? CLEAVE_ORDER_ROWS : CLEAVE_ORDER_BLOCKS);
     add_bodies(deck, *scene.bodies_, *scene.sets_, *scene.model_);
     exempt(deck, *scene.sets_, *scene.model_);
     scene.motions_->prescribe(*scene.model_);

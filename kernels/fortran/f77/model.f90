@@ -97,12 +97,11 @@ recursive subroutine clmsta(mod, dt, istab, ierr)
   integer, intent(inout) :: istab
   integer, intent(out) :: ierr
   type(cleave_model) :: model
-  integer(c_int32_t) :: status
-  logical :: stable
-  stable = .false.
+  integer(c_int32_t) :: status, stable
+  stable = 0
   call model_of('CLMSTA', mod, model, status)
   if (status == CLEAVE_OK) status = cleave_model_is_stable(model, dt, stable)
-  if (status == CLEAVE_OK) istab = merge(1, 0, stable)
+  if (status == CLEAVE_OK) istab = stable
   ierr = status
 end subroutine clmsta
 

@@ -134,14 +134,14 @@ contains
     if (status == CLEAVE_OK) status = c_order(model%handle, order)
   end function model_set_order
 
+  ! stable: 1 or 0
   recursive function model_is_stable(model, dt, stable) result(status)
     type(cleave_model), intent(in) :: model
     real(c_double), intent(in) :: dt
-    logical, intent(inout) :: stable
-    integer(c_int32_t) :: status, answer
+    integer(c_int32_t), intent(inout) :: stable
+    integer(c_int32_t) :: status
     status = ready('cleave_model_is_stable', model)
-    if (status == CLEAVE_OK) status = c_is_stable(model%handle, dt, answer)
-    if (status == CLEAVE_OK) stable = answer /= 0
+    if (status == CLEAVE_OK) status = c_is_stable(model%handle, dt, stable)
   end function model_is_stable
 
   recursive function model_initialise(model, time) result(status)

@@ -39,6 +39,7 @@ class LinearElastic {
   double wave_speed() const { return std::sqrt((lambda_ + 2 * mu_) / density_); }
 
   static constexpr int kLaneHistory = 0;
+  static constexpr bool kAnswersByState = true;
   static constexpr bool kUsesLength = false;
   bool in_lanes() const { return true; }
 

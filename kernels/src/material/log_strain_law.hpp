@@ -37,6 +37,8 @@ class LogStrainLaw {
   static constexpr const char* kDamage = Hardening::kDamage;
   // Without the thickness strain, which is 0 in lanes.
   static constexpr int kLaneHistory = Mapping::kHistory;
+  static constexpr bool kAnswersByState =
+      Bulk::kFollowsVolume && std::is_base_of_v<RateIndependent, Hardening>;
   static constexpr bool kUsesLength = Bulk::kUsesLength;
 
   LogStrainLaw(std::span<const double> p, Kinematics kinematics)

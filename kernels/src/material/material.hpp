@@ -2,9 +2,10 @@
 //
 // A law is a class with: static kParameters, static kHistory, a constructor from property values
 // and kinematics, density, youngs_modulus, shear_modulus, wave_speed, respond<D>,
-// thickness_stretch; and kDamage, the name of its damage variable, if it has one. `respond` writes its
-// history only if its answer is valid. Loops over points visit the variant once and then call the law
-// directly.
+// thickness_stretch; kDamage, the name of its damage variable, if it has one; kAnswersByState, true if
+// stress and energy after a step follow from the deformation and the history then, without rates.
+// `respond` writes its history only if its answer is valid. Loops over points visit the variant once
+// and then call the law directly.
 #pragma once
 
 #include <span>

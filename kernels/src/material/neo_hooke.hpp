@@ -60,6 +60,7 @@ class NeoHooke {
   }
 
   static constexpr int kLaneHistory = 0;
+  static constexpr bool kAnswersByState = true;
   static constexpr bool kUsesLength = false;
   // Plane stress has an outer iteration and is done point by point.
   bool in_lanes() const { return kinematics_ != CLEAVE_PLANE_STRESS; }

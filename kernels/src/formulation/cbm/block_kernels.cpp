@@ -3,10 +3,10 @@
 
 #include "formulation/cbm/block_kernels.hpp"
 
-#include <cmath>
+#include <algorithm>
 #include <cstring>
 
-#include "core/lanes.hpp"
+#include "core/lane_memory.hpp"
 #include "core/tensor.hpp"
 
 namespace cleave {
@@ -97,50 +97,101 @@ void form_force(const BlockArrays& arrays) {
   }
 }
 
+// Bonds whose scales are computed side by side; a row is done in groups of so many.
+constexpr int kGroup = 4;
+using Lanes = Pack<kGroup>;
+
 // beta rho0 c0 l rate_ip w / |x_ip|^2 with the weight and rate of theory/cbm section 5; zero for ends that
 // coincide.
 template <int D>
-CLEAVE_INLINE double viscous_scale(const BlockArrays& a, std::int64_t i, std::int64_t p,
-                                   double weight) {
-  double square = 0, approach = 0;
-  for (int k = 0; k < D; ++k) {
-    const double x = a.x[kStride<D> * p + k] - a.x[kStride<D> * i + k];
-    square += x * x;
-    approach += (a.v[kStride<D> * p + k] - a.v[kStride<D> * i + k]) * x;
+CLEAVE_INLINE Lanes viscous_scale(const BlockArrays& a, const Lanes (&x)[kStride<D>],
+                                  const Lanes (&v)[kStride<D>], const Lanes& length,
+                                  const double* weight) {
+  Lanes square = x[0] * x[0], approach = v[0] * x[0];
+  for (int k = 1; k < D; ++k) {
+    square = square + x[k] * x[k];
+    approach = approach + v[k] * x[k];
   }
-  if (!(square > 0)) return 0.0;
-  double l = a.length;
-  if (a.X != nullptr) {
-    double reference = 0;
-    for (int k = 0; k < D; ++k) {
-      const double x = a.X[kStride<D> * p + k] - a.X[kStride<D> * i + k];
-      reference += x * x;
+  const Lanes w = load_lanes<Lanes, true>(weight, 1);
+  const auto apart = square > 0.0;
+  const Lanes divisor = select(apart, (square + 0.01 * length * length) * square, Lanes(1.0));
+  return select(apart, a.coefficient * length * approach * w / divisor, Lanes(0.0));
+}
+
+// Differences of a vector over the bonds of a group, one after the other; zero beyond them.
+template <int D>
+struct GroupRows {
+  double row[kGroup][kStride<D>];
+  void clear(int from) {
+    for (int g = from; g < kGroup; ++g)
+      for (double& c : row[g]) c = 0;
+  }
+  void lanes(Lanes (&c)[kStride<D>]) const {
+    load_components<kStride<D>>(&row[0][0], kStride<D>, c);
+  }
+};
+
+template <int D>
+CLEAVE_INLINE Lanes length_of(const GroupRows<D>& X) {
+  Lanes c[kStride<D>];
+  X.lanes(c);
+  Lanes square = c[0] * c[0];
+  for (int k = 1; k < D; ++k) square = square + c[k] * c[k];
+  return square_root(square);
+}
+
+// fv of i and of the other ends of its bonds in `rows`; weight_of(b, p): weight of bond b times the ratios.
+template <int D, class Weight>
+CLEAVE_INLINE void add_viscous_row(const BlockArrays& a, std::int64_t i, const BlockRows& rows,
+                                   const Weight& weight_of, Row<D>& sum) {
+  const Row<D> xi = load_row<D>(a.x + kStride<D> * i), vi = load_row<D>(a.v + kStride<D> * i);
+  const std::int32_t end = rows.begin[i + 1];
+  for (std::int32_t first = rows.begin[i]; first < end; first += kGroup) {
+    const int count = std::min(kGroup, end - first);
+    GroupRows<D> x, v, X;
+    double weight[kGroup] = {}, scale[kGroup];
+    for (int g = 0; g < count; ++g) {
+      const std::int64_t p = rows.end[first + g];
+      store_row<D>(load_row<D>(a.x + kStride<D> * p) - xi, x.row[g]);
+      store_row<D>(load_row<D>(a.v + kStride<D> * p) - vi, v.row[g]);
+      weight[g] = weight_of(first + g, p);
     }
-    l = std::sqrt(reference);
+    x.clear(count);
+    v.clear(count);
+    Lanes length(a.length);
+    if (a.X != nullptr) {
+      for (int g = 0; g < count; ++g) {
+        const std::int64_t p = rows.end[first + g];
+        store_row<D>(load_row<D>(a.X + kStride<D> * p) - load_row<D>(a.X + kStride<D> * i),
+                     X.row[g]);
+      }
+      X.clear(count);
+      length = length_of<D>(X);
+    }
+    Lanes xc[kStride<D>], vc[kStride<D>];
+    x.lanes(xc);
+    v.lanes(vc);
+    store_lanes<Lanes, true>(viscous_scale<D>(a, xc, vc, length, weight), scale, 1);
+    for (int g = 0; g < count; ++g) {
+      const Row<D> force = scale[g] * load_row<D>(x.row[g]);
+      sum = sum + force;
+      double* to = a.fv + kStride<D> * rows.end[first + g];
+      store_row<D>(load_row<D>(to) - force, to);
+    }
   }
-  return a.coefficient * l * approach * weight / ((square + 0.01 * l * l) * square);
 }
 
 template <int D>
 void form_viscous_force(const BlockArrays& arrays) {
   const BlockArrays a = arrays;
-  for (std::int32_t i = 0; i < a.own; ++i) {
-    const Row<D> xi = load_row<D>(a.x + kStride<D> * i);
+  for (std::int64_t i = 0; i < a.own; ++i) {
     Row<D> sum = load_row<D>(a.fv + kStride<D> * i);
-    const auto pull = [&](std::int64_t p, double scale) {
-      const Row<D> force = scale * (load_row<D>(a.x + kStride<D> * p) - xi);
-      sum = sum + force;
-      double* to = a.fv + kStride<D> * p;
-      store_row<D>(load_row<D>(to) - force, to);
-    };
-    for (std::int32_t b = a.twins.begin[i]; b < a.twins.begin[i + 1]; ++b) {
-      const std::int64_t p = a.twins.end[b];
-      pull(p, viscous_scale<D>(a, i, p, a.twins.weight[b] * (a.J[i] + a.J[p])));
-    }
-    for (std::int32_t b = a.halves.begin[i]; b < a.halves.begin[i + 1]; ++b) {
-      const std::int64_t p = a.halves.end[b];
-      pull(p, viscous_scale<D>(a, i, p, a.halves.weight[b] * a.J[i]));
-    }
+    add_viscous_row<D>(
+        a, i, a.twins,
+        [&](std::int32_t b, std::int64_t p) { return a.twins.weight[b] * (a.J[i] + a.J[p]); }, sum);
+    add_viscous_row<D>(
+        a, i, a.halves, [&](std::int32_t b, std::int64_t) { return a.halves.weight[b] * a.J[i]; },
+        sum);
     store_row<D>(sum, a.fv + kStride<D> * i);
   }
 }
@@ -178,12 +229,13 @@ struct Sums {
   }
 };
 
-template <int D, bool kViscous, bool kExternal>
+// Without forces from outside 0 is added, not nothing: the sign of a zero must not depend on whether there
+// were some before a restart.
+template <bool kViscous, bool kExternal>
 CLEAVE_INLINE double total_force(const MotionArrays& a, std::int64_t c) {
   double f = a.f[c];
   if constexpr (kViscous) f = f + a.fv[c];
-  if constexpr (kExternal) f = f + a.fe[c];
-  return f;
+  return f + (kExternal ? a.fe[c] : 0.0);
 }
 template <int D, bool kViscous, bool kExternal>
 CLEAVE_INLINE void add_power(const MotionArrays& a, std::int64_t c, int k, double v, Sums<D>& s) {
@@ -205,7 +257,7 @@ PowerSums advance(const MotionArrays& arrays, std::int64_t first, std::int64_t l
       const std::int64_t c = D * p + k;
       double v = a.v[c];
       if (scale > 0) {
-        v = v + half * (total_force<D, kViscous, kExternal>(a, c) * scale);
+        v = v + half * (total_force<kViscous, kExternal>(a, c) * scale);
         add_power<D, kViscous, kExternal>(a, c, k, v, sums);
         a.v[c] = v;
         a.u[c] = a.u[c] + dt * v;
@@ -232,7 +284,7 @@ PowerSums kick(const MotionArrays& arrays, std::int64_t first, std::int64_t last
       const std::int64_t c = D * p + k;
       const double v = a.v[c];
       add_power<D, kViscous, kExternal>(a, c, k, v, sums);
-      a.v[c] = v + half * (total_force<D, kViscous, kExternal>(a, c) * scale);
+      a.v[c] = v + half * (total_force<kViscous, kExternal>(a, c) * scale);
     }
   }
   return sums.total();

@@ -24,7 +24,8 @@ bool answers_by_state(const Material& material) {
   });
 }
 
-std::int64_t bytes_of(const std::vector<double>& a) {
+template <class Reals>
+std::int64_t bytes_of(const Reals& a) {
   return static_cast<std::int64_t>(a.capacity() * sizeof(double));
 }
 

@@ -17,8 +17,8 @@ std::size_t at(std::int64_t k) { return static_cast<std::size_t>(k); }
 }  // namespace
 
 double BlockStep::total(std::int64_t component) const {
-  const double bonds = f_[at(component)] + (fv_.empty() ? 0.0 : fv_[at(component)]);
-  return has_external_ ? bonds + fe_[at(component)] : bonds;
+  const double f = f_[at(component)], bonds = fv_.empty() ? f : f + fv_[at(component)];
+  return bonds + (has_external_ ? fe_[at(component)] : 0.0);
 }
 
 void BlockStep::add_power(std::int64_t component, PowerSums& powers) const {
@@ -89,15 +89,15 @@ void BlockStep::book(Body& body, double dt, PowerSums powers, double reaction) c
 // Vectors of own and foreign particles beside each other.
 template <int D>
 void BlockStep::gather(const Block& block, Scratch& s) const {
-  const auto copy = [&](const std::vector<double>& from, std::vector<double>& to) {
-    const double* own = from.data() + D * static_cast<std::int64_t>(block.first);
-    for (std::int64_t l = 0; l < block.own; ++l)
-      for (int k = 0; k < D; ++k) to[at(kStride<D> * l + k)] = own[D * l + k];
-    std::int64_t l = block.own;
+  const auto copy = [&](const std::vector<double>& from, AlignedReals& to) {
+    const double* next = from.data() + D * static_cast<std::int64_t>(block.first);
+    double* out = to.data();
+    for (std::int32_t l = 0; l < block.own; ++l, next += D, out += kStride<D>)
+      for (int k = 0; k < D; ++k) out[k] = next[k];
     for (const std::int32_t q : block.foreign) {
-      for (int k = 0; k < D; ++k)
-        to[at(kStride<D> * l + k)] = from[at(D * static_cast<std::int64_t>(q) + k)];
-      ++l;
+      const double* foreign = from.data() + D * static_cast<std::int64_t>(q);
+      for (int k = 0; k < D; ++k) out[k] = foreign[k];
+      out += kStride<D>;
     }
   };
   copy(u_, s.u);
@@ -184,13 +184,15 @@ void BlockStep::form_block(const Body& body, std::int32_t b, const Clock& clock,
 template <int D>
 void BlockStep::scatter(std::int32_t b, Scratch& s, double half) {
   const Block& block = net_.blocks[at(b)];
-  const auto copy = [&](const std::vector<double>& from, std::vector<double>& to,
+  const auto copy = [&](const AlignedReals& from, std::vector<double>& to,
                         std::vector<double>& slots) {
-    for (std::int64_t l = 0; l < block.own; ++l)
-      for (int k = 0; k < D; ++k) to[at(D * (block.first + l) + k)] = from[at(kStride<D> * l + k)];
-    for (std::int64_t l = block.own; l < block.locals(); ++l)
-      for (int k = 0; k < D; ++k)
-        slots[at(D * (block.slot + l - block.own) + k)] = from[at(kStride<D> * l + k)];
+    const double* next = from.data();
+    double* out = to.data() + D * static_cast<std::int64_t>(block.first);
+    for (std::int32_t l = 0; l < block.own; ++l, next += kStride<D>, out += D)
+      for (int k = 0; k < D; ++k) out[k] = next[k];
+    out = slots.data() + D * block.slot;
+    for (std::size_t l = 0; l < block.foreign.size(); ++l, next += kStride<D>, out += D)
+      for (int k = 0; k < D; ++k) out[k] = next[k];
   };
   copy(s.f, f_, slots_);
   if (!fv_.empty()) copy(s.fv, fv_, viscous_slots_);

@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "core/aligned.hpp"
 #include "core/thread_team.hpp"
 #include "formulation/cbm/block_kernels.hpp"
 #include "formulation/cbm/block_network.hpp"
@@ -59,7 +60,7 @@ class BlockStep final : public ResidentStep, private StateKeeper {
     std::int64_t failed = -1;  // first local particle whose law has no answer
   };
   struct Scratch {
-    std::vector<double> u, x, v, X, rows, h, P, f, fv, J;
+    AlignedReals u, x, v, X, rows, h, P, f, fv, J;
     BlockNetwork::Workspace rows_of_block;
   };
   // Groups of fields that are brought up to date together.
