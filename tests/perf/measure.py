@@ -19,6 +19,7 @@ PARTS = ("machine", "step", "irregular", "mapping", "lammps")
 
 SVK = ["svk", "svk+fracture", "svk+search", "svk+search+viscosity", "svk+breaking"]
 J2 = ["j2", "j2+search", "j2+plastic", "j2+plastic+search", "j2+plastic+search+viscosity", "j2_table+plastic"]
+FEW = ["svk", "svk+fracture", "svk+breaking", "svk+search+viscosity", "j2+plastic+search"]
 
 # particles; turns of every case and thread count; least seconds of a turn; triad [MiB]; edges of LAMMPS blocks, their steps
 MODES = {
@@ -80,7 +81,7 @@ class Bench:
                                     part="step", dimension=dimension, wanted=particles)
 
     def groups(self, particles):
-        cases = self.given.case or SVK + J2
+        cases = self.given.case or (FEW if self.given.mode == "quick" else SVK + J2)
         fit = max(1, int(SHARE_OF_MEMORY * available_memory() / (self.peak_bytes * particles)))
         many = -(-len(cases) // fit)
         size = -(-len(cases) // many)
@@ -89,7 +90,7 @@ class Bench:
     def irregular(self):
         """The lattice, the same numbered at random, and a Delaunay mesh of gmsh as it numbers it, in turns."""
         particles = self.mode["gmsh"] or self.mode["sizes"][0]
-        cases = ["svk+search", "j2+plastic+search"]
+        cases = ["svk+search", "j2+plastic+search"][:1 if self.given.mode == "quick" else 2]
         size = ["--dimension", "3", "--particles", str(particles)]
         with tempfile.TemporaryDirectory() as folder:
             bodies = {"lattice": size, "lattice, numbered at random": [*size, "--shuffle"]}
@@ -102,7 +103,7 @@ class Bench:
             for round_ in range(rounds):
                 for name, body in bodies.items():
                     self.say(f"irregular: {name}, turn {round_ + 1} of {rounds}")
-                    self.step_speed(cases, body, 2, part="irregular", mesh=name)
+                    self.step_speed(cases, body, 1 if self.given.mode == "quick" else 2, part="irregular", mesh=name)
 
     def mapping(self):
         self.say("mapping: J2 return mapping beside textbook versions")

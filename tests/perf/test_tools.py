@@ -96,7 +96,7 @@ class Tools(unittest.TestCase):
         self.assertEqual([page.count(table.BEGIN), page.count(table.END)], [1, 1])
 
     def test_cases_of_one_size_are_cut_to_the_memory(self):
-        given = measure.arguments(["--quick"])
+        given = measure.arguments([])
         bench = measure.Bench(given)
         self.assertEqual(sum(bench.groups(10**13), []), measure.SVK + measure.J2)
         self.assertEqual(max(len(group) for group in bench.groups(10**13)), 1)
@@ -105,7 +105,7 @@ class Tools(unittest.TestCase):
     def test_cases_are_those_that_the_program_knows(self):
         source = pathlib.Path(__file__).with_name("step_case.cpp").read_text(encoding="utf-8")
         known = set(re.findall(r'word == "(\w+)"', source))
-        for case in measure.SVK + measure.J2:
+        for case in measure.SVK + measure.J2 + measure.FEW:
             self.assertLessEqual(set(case.split("+")[1:]), known)
 
 

@@ -30,7 +30,7 @@ inline R squared_norm(const Symmetric<R>& s) {
 }
 
 template <class R>
-inline R determinant(const Symmetric<R>& s) {
+CLEAVE_INLINE R determinant(const Symmetric<R>& s) {
   return (s.xx * (s.yy * s.zz - s.yz * s.yz) + s.xy * (s.yz * s.zx - s.xy * s.zz)) +
          s.zx * (s.xy * s.yz - s.yy * s.zx);
 }
@@ -181,7 +181,7 @@ inline Cofactor<R> select(const MaskOf<R>& m, const Cofactor<R>& a, const Cofact
   return {select(m, a.cofactor, b.cofactor), select(m, a.volume_change, b.volume_change)};
 }
 template <class R>
-inline Cofactor<R> cofactor_of(const Full<R>& h) {
+CLEAVE_INLINE Cofactor<R> cofactor_of(const Full<R>& h) {
   const R fx = 1.0 + h.xx, fy = 1.0 + h.yy, fz = 1.0 + h.zz;
   const R change = (h.yy + h.zz) + (h.yy * h.zz - h.yz * h.zy);  // cof_xx - 1
   Cofactor<R> c;

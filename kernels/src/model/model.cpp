@@ -64,10 +64,11 @@ void set_up(cleave_model& model) {
     body->formulation->setup(*body);
     body->events.reserve(static_cast<std::size_t>(std::min<std::int64_t>(body->particles, 65536)));
   }
-  // Not earlier: a refused set-up can be repaired and called again.
+  // Not earlier: a refused set-up can be repaired and called again. Assigning an empty list would keep the
+  // memory.
   for (auto& body : model.bodies) {
-    body->given_positions = {};
-    body->given_simplices = {};
+    std::vector<double>().swap(body->given_positions);
+    std::vector<std::int64_t>().swap(body->given_simplices);
   }
   model.phase = cleave_model::Phase::ready;
 }

@@ -97,39 +97,37 @@ void form_force(const BlockArrays& arrays) {
   }
 }
 
-// Bonds whose scales are computed side by side; a row is done in groups of so many.
+// Bonds whose scales are computed side by side.
 constexpr int kGroup = 4;
 using Lanes = Pack<kGroup>;
+
+// Differences of a vector over the bonds of a group.
+template <int D>
+struct GroupRows {
+  alignas(32) double row[kGroup][kStride<D>];
+  void lanes(Lanes (&c)[kStride<D>]) const {
+    load_components<kStride<D>>(&row[0][0], kStride<D>, c);
+  }
+};
 
 // beta rho0 c0 l rate_ip w / |x_ip|^2 with the weight and rate of theory/cbm section 5; zero for ends that
 // coincide.
 template <int D>
-CLEAVE_INLINE Lanes viscous_scale(const BlockArrays& a, const Lanes (&x)[kStride<D>],
-                                  const Lanes (&v)[kStride<D>], const Lanes& length,
-                                  const double* weight) {
+CLEAVE_INLINE Lanes viscous_scale(const BlockArrays& a, const GroupRows<D>& xs,
+                                  const GroupRows<D>& vs, const Lanes& length,
+                                  const Lanes& weight) {
+  Lanes x[kStride<D>], v[kStride<D>];
+  xs.lanes(x);
+  vs.lanes(v);
   Lanes square = x[0] * x[0], approach = v[0] * x[0];
   for (int k = 1; k < D; ++k) {
     square = square + x[k] * x[k];
     approach = approach + v[k] * x[k];
   }
-  const Lanes w = load_lanes<Lanes, true>(weight, 1);
   const auto apart = square > 0.0;
   const Lanes divisor = select(apart, (square + 0.01 * length * length) * square, Lanes(1.0));
-  return select(apart, a.coefficient * length * approach * w / divisor, Lanes(0.0));
+  return select(apart, a.coefficient * length * approach * weight / divisor, Lanes(0.0));
 }
-
-// Differences of a vector over the bonds of a group, one after the other; zero beyond them.
-template <int D>
-struct GroupRows {
-  double row[kGroup][kStride<D>];
-  void clear(int from) {
-    for (int g = from; g < kGroup; ++g)
-      for (double& c : row[g]) c = 0;
-  }
-  void lanes(Lanes (&c)[kStride<D>]) const {
-    load_components<kStride<D>>(&row[0][0], kStride<D>, c);
-  }
-};
 
 template <int D>
 CLEAVE_INLINE Lanes length_of(const GroupRows<D>& X) {
@@ -140,60 +138,65 @@ CLEAVE_INLINE Lanes length_of(const GroupRows<D>& X) {
   return square_root(square);
 }
 
-// fv of i and of the other ends of its bonds in `rows`; weight_of(b, p): weight of bond b times the ratios.
-template <int D, class Weight>
-CLEAVE_INLINE void add_viscous_row(const BlockArrays& a, std::int64_t i, const BlockRows& rows,
-                                   const Weight& weight_of, Row<D>& sum) {
-  const Row<D> xi = load_row<D>(a.x + kStride<D> * i), vi = load_row<D>(a.v + kStride<D> * i);
-  const std::int32_t end = rows.begin[i + 1];
-  for (std::int32_t first = rows.begin[i]; first < end; first += kGroup) {
-    const int count = std::min(kGroup, end - first);
-    GroupRows<D> x, v, X;
-    double weight[kGroup] = {}, scale[kGroup];
-    for (int g = 0; g < count; ++g) {
-      const std::int64_t p = rows.end[first + g];
-      store_row<D>(load_row<D>(a.x + kStride<D> * p) - xi, x.row[g]);
-      store_row<D>(load_row<D>(a.v + kStride<D> * p) - vi, v.row[g]);
-      weight[g] = weight_of(first + g, p);
+// Scales of all bonds of a kind, whatever row they belong to.  [out] scale (k)   [scratch] first (k)
+// own ends;  both with room for kGroup more
+template <int D, bool kTwins>
+void viscous_scales(const BlockArrays& a, const BlockRows& rows) {
+  const std::int32_t count = rows.begin[a.own];
+  for (std::int32_t i = 0; i < a.own; ++i)
+    for (std::int32_t b = rows.begin[i]; b < rows.begin[i + 1]; ++b)
+      a.first[b] = static_cast<std::uint16_t>(i);
+  for (std::int32_t b = 0; b < count; b += kGroup) {
+    GroupRows<D> x, v;
+    double weight[kGroup];
+    std::int64_t i[kGroup], p[kGroup];
+    for (int g = 0; g < kGroup; ++g) {
+      const std::int32_t bond = std::min(b + g, count - 1);
+      i[g] = a.first[bond];
+      p[g] = rows.end[bond];
+      store_row<D>(load_row<D>(a.x + kStride<D> * p[g]) - load_row<D>(a.x + kStride<D> * i[g]),
+                   x.row[g]);
+      store_row<D>(load_row<D>(a.v + kStride<D> * p[g]) - load_row<D>(a.v + kStride<D> * i[g]),
+                   v.row[g]);
+      weight[g] = rows.weight[bond] * (kTwins ? a.J[i[g]] + a.J[p[g]] : a.J[i[g]]);
     }
-    x.clear(count);
-    v.clear(count);
     Lanes length(a.length);
     if (a.X != nullptr) {
-      for (int g = 0; g < count; ++g) {
-        const std::int64_t p = rows.end[first + g];
-        store_row<D>(load_row<D>(a.X + kStride<D> * p) - load_row<D>(a.X + kStride<D> * i),
+      GroupRows<D> X;
+      for (int g = 0; g < kGroup; ++g)
+        store_row<D>(load_row<D>(a.X + kStride<D> * p[g]) - load_row<D>(a.X + kStride<D> * i[g]),
                      X.row[g]);
-      }
-      X.clear(count);
       length = length_of<D>(X);
     }
-    Lanes xc[kStride<D>], vc[kStride<D>];
-    x.lanes(xc);
-    v.lanes(vc);
-    store_lanes<Lanes, true>(viscous_scale<D>(a, xc, vc, length, weight), scale, 1);
-    for (int g = 0; g < count; ++g) {
-      const Row<D> force = scale[g] * load_row<D>(x.row[g]);
+    store_lanes<Lanes, true>(viscous_scale<D>(a, x, v, length, load_lanes<Lanes, true>(weight, 1)),
+                             a.scale + b, 1);
+  }
+}
+
+// scale_ip x_ip on i, the opposite on p.
+template <int D>
+void add_viscous_rows(const BlockArrays& a, const BlockRows& rows) {
+  for (std::int64_t i = 0; i < a.own; ++i) {
+    const Row<D> xi = load_row<D>(a.x + kStride<D> * i);
+    Row<D> sum = load_row<D>(a.fv + kStride<D> * i);
+    for (std::int32_t b = rows.begin[i]; b < rows.begin[i + 1]; ++b) {
+      const std::int64_t p = rows.end[b];
+      const Row<D> force = a.scale[b] * (load_row<D>(a.x + kStride<D> * p) - xi);
       sum = sum + force;
-      double* to = a.fv + kStride<D> * rows.end[first + g];
+      double* to = a.fv + kStride<D> * p;
       store_row<D>(load_row<D>(to) - force, to);
     }
+    store_row<D>(sum, a.fv + kStride<D> * i);
   }
 }
 
 template <int D>
 void form_viscous_force(const BlockArrays& arrays) {
   const BlockArrays a = arrays;
-  for (std::int64_t i = 0; i < a.own; ++i) {
-    Row<D> sum = load_row<D>(a.fv + kStride<D> * i);
-    add_viscous_row<D>(
-        a, i, a.twins,
-        [&](std::int32_t b, std::int64_t p) { return a.twins.weight[b] * (a.J[i] + a.J[p]); }, sum);
-    add_viscous_row<D>(
-        a, i, a.halves, [&](std::int32_t b, std::int64_t) { return a.halves.weight[b] * a.J[i]; },
-        sum);
-    store_row<D>(sum, a.fv + kStride<D> * i);
-  }
+  viscous_scales<D, true>(a, a.twins);
+  add_viscous_rows<D>(a, a.twins);
+  viscous_scales<D, false>(a, a.halves);
+  add_viscous_rows<D>(a, a.halves);
 }
 
 template <int D>

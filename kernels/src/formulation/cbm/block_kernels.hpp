@@ -2,7 +2,7 @@
 // is done between them - the stress, the kick - is not known here.
 //
 // Order of sums: particle i gets the contributions of the twins whose first end comes before it, in the
-// order of those ends, then of its own twins, then of its halves.
+// order of those ends, then of its own twins, then of its halves; viscosity: all twins before all halves.
 #pragma once
 
 #include <cstdint>
@@ -28,12 +28,14 @@ struct BlockArrays {
   const double* P;       // (9, own) [Pa]
   double* f;             // (kStride, locals) force [N]; zero at the start
   // Viscosity only.
-  const double *x, *v;  // (kStride, locals) position [m], velocity [m s-1]
-  const double* X;      // (kStride, locals) reference position; NULL: constant length
-  const double* J;      // (own) det F, not below zero
-  double* fv;           // (kStride, locals) force [N]; zero at the start
-  double coefficient;   // beta rho0 c0 [Pa s m-1]
-  double length;        // l [m]
+  const double *x, *v;   // (kStride, locals) position [m], velocity [m s-1]
+  const double* X;       // (kStride, locals) reference position; NULL: constant length
+  const double* J;       // (own) det F, not below zero
+  double* fv;            // (kStride, locals) force [N]; zero at the start
+  double* scale;         // scratch for every twin or half and 4 more
+  std::uint16_t* first;  // the same
+  double coefficient;    // beta rho0 c0 [Pa s m-1]
+  double length;         // l [m]
 };
 
 // Particles first <= p < last of the whole body; vectors stand at a distance of D. Pointers that may be NULL

@@ -216,13 +216,18 @@ void BlockNetwork::rebuild(const Network& network, int dimension, const char* ch
   block.halves = work.halves;
 }
 
-// Room for the rows of any block, each bond a half at both ends.
-void BlockNetwork::reserve(Workspace& work, int dimension) const {
-  std::int64_t bonds = 0, rows = 0;
-  for (const Block& block : blocks) {
+// Every bond a half at both ends.
+std::int64_t BlockNetwork::most_bonds() const {
+  std::int64_t bonds = 0;
+  for (const Block& block : blocks)
     bonds = std::max(bonds, 2 * block.twins.count() + block.halves.count());
-    rows = std::max<std::int64_t>(rows, block.own + 1);
-  }
+  return bonds;
+}
+
+void BlockNetwork::reserve(Workspace& work, int dimension) const {
+  const std::int64_t bonds = most_bonds();
+  std::int64_t rows = 0;
+  for (const Block& block : blocks) rows = std::max<std::int64_t>(rows, block.own + 1);
   work.row.reserve(at(longest_row));
   for (BlockBonds* b : {&work.twins, &work.halves}) {
     b->begin.reserve(at(rows));

@@ -64,6 +64,8 @@ class BlockNetwork {
 
   // Of the particle at a place.
   std::int32_t block_of(std::int32_t p) const { return block_of_[static_cast<std::size_t>(p)]; }
+  // Of one kind that a block can come to have.
+  std::int64_t most_bonds() const;
   std::int64_t bytes() const;
 
   std::vector<std::int32_t> given;  // (n) number of the particle at a place

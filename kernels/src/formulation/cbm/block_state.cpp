@@ -62,8 +62,11 @@ void BlockStep::fit_scratch(int dimension) {
     s.rows.assign(at(dimension * stride * static_cast<std::int64_t>(own)), 0.0);
     s.h.assign(at(kTensor * own), 0.0);
     if (P_.empty()) s.P.assign(at(kTensor * (own + 1)), 0.0);
-    for (auto* a : {&s.X, &s.x, &s.v, &s.fv}) a->assign(viscous ? locals : 0, 0.0);
+    for (auto* a : {&s.x, &s.v, &s.fv}) a->assign(viscous ? locals : 0, 0.0);
+    s.X.assign(viscous && parts_.viscosity->lengths != nullptr ? locals : 0, 0.0);
     s.J.assign(viscous ? at(own) : 0, 0.0);
+    s.scale.assign(viscous ? at(net_.most_bonds() + 4) : 0, 0.0);
+    s.first.assign(s.scale.size(), 0);
     if (parts_.fracture.active()) net_.reserve(s.rows_of_block, dimension);
   }
 }

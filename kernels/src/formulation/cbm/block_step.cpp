@@ -105,8 +105,16 @@ void BlockStep::gather(const Block& block, Scratch& s) const {
   std::fill_n(s.rows.begin(), D * kStride<D> * static_cast<std::int64_t>(block.own), 0.0);
   std::fill_n(s.f.begin(), locals, 0.0);
   if (parts_.viscosity == nullptr) return;
-  copy(X_, s.X);
-  for (std::int64_t c = 0; c < locals; ++c) s.x[at(c)] = s.X[at(c)] + s.u[at(c)];
+  if (parts_.viscosity->lengths != nullptr) copy(X_, s.X);
+  const auto position = [&](std::int64_t place, double* x) {
+    for (int k = 0; k < D; ++k) x[k] = X_[at(D * place + k)] + u_[at(D * place + k)];
+  };
+  double* x = s.x.data();
+  for (std::int32_t l = 0; l < block.own; ++l, x += kStride<D>) position(block.first + l, x);
+  for (const std::int32_t q : block.foreign) {
+    position(q, x);
+    x += kStride<D>;
+  }
   copy(v_, s.v);
   std::fill_n(s.fv.begin(), locals, 0.0);
 }
@@ -174,6 +182,8 @@ void BlockStep::form_block(const Body& body, std::int32_t b, const Clock& clock,
   a.v = s.v.data();
   a.J = s.J.data();
   a.fv = s.fv.data();
+  a.scale = s.scale.data();
+  a.first = s.first.data();
   a.coefficient = parts_.viscosity->beta_rho_c;
   a.length = parts_.viscosity->length;
   if (parts_.viscosity->lengths != nullptr) a.X = s.X.data();

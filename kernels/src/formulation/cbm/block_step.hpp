@@ -60,7 +60,8 @@ class BlockStep final : public ResidentStep, private StateKeeper {
     std::int64_t failed = -1;  // first local particle whose law has no answer
   };
   struct Scratch {
-    AlignedReals u, x, v, X, rows, h, P, f, fv, J;
+    AlignedReals u, x, v, X, rows, h, P, f, fv, J, scale;
+    std::vector<std::uint16_t> first;
     BlockNetwork::Workspace rows_of_block;
   };
   // Groups of fields that are brought up to date together.
