@@ -355,13 +355,10 @@ CLEAVE_API int32_t cleave_model_set_index_base(cleave_model* model, int32_t base
 /* Threads the kernels may use; default 1.  Results do not depend on it, bit for bit. */
 CLEAVE_API int32_t cleave_model_set_threads(cleave_model* model, int32_t threads);
 
-/* The order of operations of the explicit step, before cleave_model_setup. Results differ by rounding. */
-enum cleave_order {
-  CLEAVE_ORDER_BLOCKS =
-      1, /* default: fixed blocks of particles, the fastest for any number of threads */
-  CLEAVE_ORDER_ROWS =
-      2 /* that of the array calls: the bits of a host that calls them in its loops */
-};
+/* The order of operations of the explicit step, before cleave_model_setup. Results differ by rounding.
+ * BLOCKS, the default: fixed blocks of particles, the fastest, for any number of threads. ROWS: that of the
+ * array calls, the bits of a host that calls them in its own loops. */
+enum cleave_order { CLEAVE_ORDER_BLOCKS = 1, CLEAVE_ORDER_ROWS = 2 };
 CLEAVE_API int32_t cleave_model_set_order(cleave_model* model, int32_t order);
 
 typedef struct cleave_body_spec {
