@@ -98,12 +98,15 @@ class Comparison {
     const bool other_keys =
         selector != nullptr && old_group.text(selector) != new_group.text(selector);
     const auto specs = key_specs(new_group);
-    for (std::size_t k = 0; k < specs.size(); ++k) {
+    for (std::size_t k = 0; k < new_group.keys.size(); ++k) {
       const DeckKey& key = new_group.keys[k];
       if (other_keys && key.name != spec.selector) continue;
       const KeyValue& old_value = old_group.key(key.name.c_str()).value;
       if (same(old_value, key.value)) continue;
-      if (specs[k]->allowed.is_file && same_file(before_, old_value, after_, key.value)) continue;
+      // With another selector the keys may be those of the old one: only the selector itself is compared.
+      if (!other_keys && specs[k]->allowed.is_file &&
+          same_file(before_, old_value, after_, key.value))
+        continue;
       found.push_back({&old_group, &new_group, key.name, label(spec, old_group, before_),
                        shown(old_value), shown(key.value)});
     }
