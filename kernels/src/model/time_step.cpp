@@ -87,7 +87,6 @@ void start_ledger(Body& body, double dt) {
 void change_step(Body& body, double dt) {
   const PointArrays& pt = body.point;
   const double before = pt.ledger[ledger::kLastStep];
-  if (dt == before) return;
   double sum = 0;
   for (std::int64_t i = 0; i < body.particles; ++i)
     for (int k = 0; k < kVector; ++k)
@@ -98,11 +97,12 @@ void change_step(Body& body, double dt) {
 
 // What the ledger must know of a step that begins.
 void begin_step(Body& body, double dt) {
-  const double* entry = body.point.ledger;
-  const bool started = entry[ledger::kStarted] > 0;
-  if (started && entry[ledger::kLastStep] == dt) return;
-  fetch(body);
-  if (!started) start_ledger(body, dt);
+  if (!(body.point.ledger[ledger::kStarted] > 0)) {
+    fetch(body);
+    start_ledger(body, dt);
+  }
+  if (dt == body.point.ledger[ledger::kLastStep]) return;
+  fetch(body, "acceleration");
   change_step(body, dt);
 }
 
