@@ -42,14 +42,10 @@ def checkpoints(folder):
     return dict(sorted(found.items()))
 
 
-def environment():
-    return os.environ | {"OMP_WAIT_POLICY": "passive"}      # there may be fewer cores than threads
-
-
 def run_whole(cleave, folder, deck, threads):
     """The run that nothing happens to."""
     with open(folder / "log", "wb") as log:
-        subprocess.run([cleave, deck, "--threads", str(threads)], cwd=folder, env=environment(), stdout=log,
+        subprocess.run([cleave, deck, "--threads", str(threads)], cwd=folder, stdout=log,
                        stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, check=True)
 
 
@@ -110,7 +106,7 @@ class Killer:
         attempt.expected = max(whole, default=0)
         attempt.ignored = sum(step > attempt.expected for step in present)
         words = ["restart", "."] if present else [self.deck]
-        process = subprocess.Popen([self.cleave, *words, "--threads", str(attempt.threads)], cwd=folder, env=environment(),
+        process = subprocess.Popen([self.cleave, *words, "--threads", str(attempt.threads)], cwd=folder,
                                    stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL)
         log = []
         sent = self.kill(process, folder, attempt.expected, log) if self.kills < kills else None
