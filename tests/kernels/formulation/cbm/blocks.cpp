@@ -1,7 +1,7 @@
 // The step in blocks against the step by rows, which is that of the array calls and is tested by itself:
 // the same motion, forces, energies and broken bonds but for rounding, for every law, with all that a block
-// does: breaking, viscosity, prescribed motion, forces from outside. Bits do not depend on threads, on when
-// the host looks, or on the numbering of the mesh's simplices. The meshes make several blocks.
+// does: breaking, viscosity, prescribed motion, forces from outside. Bits depend neither on threads nor on
+// when the host looks. The meshes make several blocks.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -108,7 +108,7 @@ void expect_close(const Pull& a, const Pull& b, const char* name, double allowed
   EXPECT_LE(off, allowed * size) << name << " of size " << size;
 }
 
-// Explicit steps amplify rounding a little: measured 5e-13 in 60 steps.
+// Explicit steps amplify rounding a little: measured 9e-14 in 60 steps.
 TEST_P(Blocks, AgreeWithRows) {
   const SimplexMesh m = block_mesh(GetParam());
   Pull blocks(GetParam(), m, CLEAVE_ORDER_BLOCKS), rows(GetParam(), m, CLEAVE_ORDER_ROWS);
@@ -123,7 +123,7 @@ TEST_P(Blocks, AgreeWithRows) {
   for (const char* name : {"displacement", "velocity", "acceleration", "internal_force",
                            "viscous_force", "first_piola_kirchhoff_stress", "volume_ratio",
                            "strain_energy_density", "displacement_gradient", "damage"})
-    expect_close(blocks, rows, name, 1e-10);
+    expect_close(blocks, rows, name, 1e-11);
   const cleave_energies e = blocks.model.energies(), f = rows.model.energies();
   const double size = 1e-10 * (f.kinetic + f.elastic);
   EXPECT_NEAR(e.kinetic, f.kinetic, size);
