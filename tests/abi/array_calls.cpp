@@ -53,6 +53,7 @@ TEST_P(ArrayCalls, HaveTheBitsOfTheModelAfterBreaking) {
 TEST_P(ArrayCalls, ViscosityHasTheBitsOfTheModel) {
   const SimplexMesh m = mesh();
   Model model;
+  ok(cleave_model_set_order(model, CLEAVE_ORDER_ROWS));
   const double beta = 0.3, length = 0.01;
   model.add(plate(), m, {{"viscosity", "beta", beta}, {"viscosity", "length", length}});
   model.setup();

@@ -104,7 +104,8 @@ class LinearSimplicesExample : public testing::Test {
     body_->formulation = std::make_unique<LinearSimplices>();
     body_->make_fields();
     body_->material = body_->law->make(kSvk, CLEAVE_PLANE_STRAIN);
-    body_->formulation->setup(*body_);
+    ThreadTeam alone;
+    body_->formulation->setup(*body_, alone);
   }
 
   void displace(int particle, int direction, double amount) {

@@ -108,8 +108,11 @@ void build_bonds(const cleave_network& n, const double* X, int64_t simplex_count
   }
   cbm::fill_reverse(n.particles, row_begin.data(), n.neighbour, n.reverse);
   for (int64_t i = 0; i < n.particles; ++i) {
-    cbm::rebuild_row<D>(X, simplices, D + 1, alive, incidence, row_begin.data(), n.neighbour, i,
-                        n.zeta, n.volume);
+    const int64_t first = row_begin[static_cast<std::size_t>(i)],
+                  last = row_begin[static_cast<std::size_t>(i) + 1];
+    const std::span<const int64_t> row{n.neighbour + first, n.neighbour + last};
+    n.volume[i] = cbm::sum_row<D>(X, simplices, D + 1, alive, incidence, row, i,
+                                  n.zeta + kVector * first, nullptr);
   }
   for (int64_t b = 0; b < row_begin.back(); ++b) {
     n.neighbour[b] += n.index_base;

@@ -28,6 +28,15 @@ void FieldStore::allocate(cleave_relation relation, std::int64_t count) {
   }
 }
 
+void FieldStore::release(std::string_view name) {
+  if (Field* f = find(name)) std::vector<double>().swap(f->real);
+}
+
+void FieldStore::restore(std::string_view name) {
+  Field* f = find(name);
+  if (f != nullptr) f->real.resize(static_cast<std::size_t>(f->count * f->spec.components), 0.0);
+}
+
 Field* FieldStore::find(std::string_view name) {
   for (auto& f : fields_) {
     if (name == f.spec.name) return &f;

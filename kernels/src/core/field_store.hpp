@@ -27,7 +27,11 @@ class FieldStore {
   // Gives all fields of a relation their size, zero-filled. Derived fields get a count only.
   void allocate(cleave_relation relation, std::int64_t count);
 
-  // Pointers stay valid until the relation is allocated again. Throw INTERNAL for a wrong name or
+  // Memory of one field only: given back; taken again, zero-filled, unless it is there.
+  void release(std::string_view name);
+  void restore(std::string_view name);
+
+  // Pointers stay valid until the field is allocated or released again. Throw INTERNAL for a wrong name or
   // type.
   double* real(std::string_view name);
   std::int32_t* integer(std::string_view name);

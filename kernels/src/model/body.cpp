@@ -97,6 +97,18 @@ void Body::make_fields() {
   fields.allocate(CLEAVE_RELATION_POINT, particles);
   fields.allocate(CLEAVE_RELATION_INTEGRATION_POINT, points);
   fields.allocate(CLEAVE_RELATION_BODY, 1);
+  point_into_fields();
+  for (std::int64_t i = 0; i < particles; ++i) {
+    for (int k = 0; k < dimension(); ++k) {
+      point.X[kVector * i + k] = given_positions[static_cast<std::size_t>(kVector * i + k)];
+      point.x[kVector * i + k] = point.X[kVector * i + k];
+    }
+  }
+  work.resize(particles);
+  point_work.resize(points);
+}
+
+void Body::point_into_fields() {
   point = {fields.real("reference_position"),
            fields.real("position"),
            fields.real("displacement"),
@@ -116,14 +128,6 @@ void Body::make_fields() {
     history.base[k] = fields.real(law->history[k].name);
     history.stride[k] = law->history[k].components;
   }
-  for (std::int64_t i = 0; i < particles; ++i) {
-    for (int k = 0; k < dimension(); ++k) {
-      point.X[kVector * i + k] = given_positions[static_cast<std::size_t>(kVector * i + k)];
-      point.x[kVector * i + k] = point.X[kVector * i + k];
-    }
-  }
-  work.resize(particles);
-  point_work.resize(points);
 }
 
 }  // namespace cleave

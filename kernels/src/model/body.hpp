@@ -26,7 +26,7 @@ struct PrescribedDof {
   double acceleration = 0;
 };
 
-// Raw pointers into the core fields, set when they are allocated. h to volume are at integration
+// Raw pointers into the core fields, NULL while a field has no memory. h to volume are at integration
 // points, the others at particles.
 struct PointArrays {
   double *X, *x, *u, *v, *a, *mass, *internal, *viscous, *external;
@@ -77,6 +77,8 @@ struct Body {
 
   // Declares the fields, allocates those of particles and the body, copies positions.
   void make_fields();
+  // `point` and `history` anew, after memory of core fields or of history was given back or taken.
+  void point_into_fields();
 
  private:
   bool points_are_particles_ = true;

@@ -39,14 +39,14 @@ class Formulation {
   // kPointsAreParticles: the particles themselves.
   virtual std::int64_t integration_points(const Body&) const { return kPointsAreParticles; }
   // Checks the options, allocates the formulation's fields and fills those of lifetime setup.
-  virtual void setup(Body& body) = 0;
+  virtual void setup(Body& body, ThreadTeam& team) = 0;
   // All caches from setup and state fields, and whatever the formulation keeps outside fields.
   virtual void rebuild(Body& body, ThreadTeam& team) = 0;
   // Largest stable step of the undeformed body with its safety [s].
   virtual double stable_step(const Body& body) const = 0;
   // The gradient operator of a formulation with a stress at points, else nullptr. Valid until bonds
   // break or the body is rebuilt.
-  virtual const GradientOperator* gradient_operator() const { return nullptr; }
+  virtual const GradientOperator* gradient_operator(ThreadTeam&) { return nullptr; }
 
   // The explicit step of a formulation that keeps the state in an order of its own; nullptr: the step goes
   // by the functions below, on the fields.
@@ -67,9 +67,13 @@ class Formulation {
   virtual StoredEnergy stored_energy(const Body& body) const = 0;
   virtual double hourglass_energy(const Body& body) const = 0;
   virtual void count(const Body& body, cleave_counts& counts) const = 0;
-  // Fills a derived field of this formulation; false if it has no field of that name.
+  // Fill a derived field of this formulation; false if it has no field of that name.
   virtual bool derive(const Body& body, std::string_view field, std::int64_t first,
                       std::int64_t last, double* values) const = 0;
+  virtual bool derive(const Body&, std::string_view, std::int64_t, std::int64_t,
+                      std::int64_t*) const {
+    return false;
+  }
   virtual std::int64_t bytes() const = 0;
 };
 

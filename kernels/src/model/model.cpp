@@ -61,7 +61,7 @@ void set_up(cleave_model& model) {
     body->material = body->law->make(body->material_parameters.values(), body->kinematics);
     body->by_rows = model.by_rows;
     body->make_fields();
-    body->formulation->setup(*body);
+    body->formulation->setup(*body, model.team);
     body->events.reserve(static_cast<std::size_t>(std::min<std::int64_t>(body->particles, 65536)));
   }
   // Not earlier: a refused set-up can be repaired and called again. Assigning an empty list would keep the

@@ -1,6 +1,6 @@
 // A step that keeps the state of a body in arrays of its own, in an order of its own, while it runs. The
-// fields stand still meanwhile; what is asked for is brought up to date first, what the host puts is
-// taken over before the next call.
+// fields stand still meanwhile, and those that nobody asks for have no memory; what is asked for is
+// brought up to date first, what the host puts is taken over before the next call.
 #pragma once
 
 #include <string_view>
@@ -15,6 +15,8 @@ class ResidentStep {
   virtual ~ResidentStep() = default;
   // Takes over the fields and allocates, as the first step would.
   virtual void prepare(Body& body, ThreadTeam& team) = 0;
+  // stress, forces and accelerations of the present motion
+  virtual void start(Body& body, const Clock& clock, ThreadTeam& team) = 0;
   // v += dt/2 a, u += dt v, and half of the works
   virtual void advance(Body& body, double dt, ThreadTeam& team) = 0;
   // break, gradient, stress, forces, a = f/m, the other half of the works, v += dt/2 a

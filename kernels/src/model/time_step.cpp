@@ -204,14 +204,18 @@ void prepare(cleave_model& model) {
 void initialise(cleave_model& model, double time) {
   model.clock = {0, time, 0};
   for (auto& body : model.bodies) {
-    take_fields(*body);
+    fetch(*body);
     for (std::int64_t c = 0; c < kVector * body->particles; ++c)
       body->point.x[c] = body->point.X[c] + body->point.u[c];
+    if (ResidentStep* resident = body->formulation->resident()) {
+      resident->changed("displacement");
+      at_clock(model.clock, [&] { resident->start(*body, model.clock, model.team); });
+      continue;
+    }
     body->formulation->deform(*body, model.clock, model.team);
     body->formulation->forces(*body, model.team);
     accelerate(*body, model.team);
   }
-  prepare(model);
   model.phase = cleave_model::Phase::stepping;
 }
 

@@ -67,7 +67,7 @@ class Newton {
         clock_(clock),
         team_(team),
         options_(options),
-        g_(*body.formulation->gradient_operator()),
+        g_(*body.formulation->gradient_operator(team)),
         committed_(body),
         equations_(body, g_),
         displacement_(committed_.values("displacement")),
@@ -265,7 +265,7 @@ StaticReport solve_static(cleave_model& model, double time_new, const StaticOpti
   }
   for (auto& body : model.bodies) {
     take_fields(*body);
-    if (body->formulation->gradient_operator() == nullptr) {
+    if (body->formulation->gradient_operator(model.team) == nullptr) {
       throw Error(CLEAVE_UNSUPPORTED,
                   text(body->label(), ": formulation ", body->formulation->name(),
                        " has no gradient operator to solve with"));

@@ -18,7 +18,7 @@ class LinearSimplices final : public Formulation {
   const char* name() const override { return "linear_simplices"; }
 
   // Masses, and everything that never changes.
-  void setup(Body& body) override {
+  void setup(Body& body, ThreadTeam&) override {
     if (!body.law->history.empty()) {
       throw Error(CLEAVE_UNSUPPORTED,
                   text(body.label(), ": linear_simplices takes laws without history, not ",

@@ -31,6 +31,15 @@ CLEAVE_INLINE void add_row(double* to, const Row<D>& r) {
   store_row<D>(load_row<D>(to) + r, to);
 }
 
+// Of the end of a bond.
+template <int D, class Real>
+CLEAVE_INLINE Real* vector_at(Real* own, Real* foreign, std::int64_t owned, std::int64_t end) {
+  return end < owned ? own + kStride<D> * end : foreign + kStride<D> * (end - owned);
+}
+
+// Numbers of bond vectors that are asked for early: one page, which the hardware does not look beyond.
+constexpr std::int64_t kAhead = 512;
+
 template <int D>
 void form_gradient(const BlockArrays& arrays, std::int32_t first, std::int32_t last, double* h) {
   const BlockArrays a = arrays;
@@ -41,9 +50,11 @@ void form_gradient(const BlockArrays& arrays, std::int32_t first, std::int32_t l
       sum[r] = load_row<D>(a.rows + kRows * i + kStride<D> * r);
       ui[r] = Row<D>(a.u[kStride<D> * i + r]);
     }
-    for (std::int32_t b = a.twins.begin[i]; b < a.twins.begin[i + 1]; ++b) {
+    const std::int64_t twins = a.twins.begin[i];
+    for (std::int64_t b = twins; b < twins + a.twins.count[i]; ++b) {
       const std::int64_t p = a.twins.end[b];
-      const Row<D> zeta = load_row<D>(a.twins.zeta + D * static_cast<std::int64_t>(b));
+      const Row<D> zeta = load_row<D>(a.twins.zeta + D * b);
+      __builtin_prefetch(a.twins.zeta + D * b + kAhead);
       double* other = a.rows + kRows * p;
       for (int r = 0; r < D; ++r) {
         const Row<D> part = (Row<D>(a.u[kStride<D> * p + r]) - ui[r]) * zeta;
@@ -51,11 +62,11 @@ void form_gradient(const BlockArrays& arrays, std::int32_t first, std::int32_t l
         add_row<D>(other + kStride<D> * r, part);
       }
     }
-    for (std::int32_t b = a.halves.begin[i]; b < a.halves.begin[i + 1]; ++b) {
-      const std::int64_t p = a.halves.end[b];
-      const Row<D> zeta = load_row<D>(a.halves.zeta + D * static_cast<std::int64_t>(b));
-      for (int r = 0; r < D; ++r)
-        sum[r] = sum[r] + (Row<D>(a.u[kStride<D> * p + r]) - ui[r]) * zeta;
+    const std::int64_t halves = a.halves.begin[i];
+    for (std::int64_t b = halves; b < halves + a.halves.count[i]; ++b) {
+      const double* up = vector_at<D>(a.u, a.foreign_u, a.own, a.halves.end[b]);
+      const Row<D> zeta = load_row<D>(a.halves.zeta + D * b);
+      for (int r = 0; r < D; ++r) sum[r] = sum[r] + (Row<D>(up[r]) - ui[r]) * zeta;
     }
     const double inverse = a.volume[i] > 0 ? 1 / a.volume[i] : 0.0;
     double* to = h + kTensor * (i - first);
@@ -74,9 +85,10 @@ void form_force(const BlockArrays& arrays) {
     Row<D> column[D];
     for (int c = 0; c < D; ++c) column[c] = load_row<D>(a.P + kTensor * i + 3 * c);
     Row<D> sum = load_row<D>(a.f + kStride<D> * i);
-    for (std::int32_t b = a.twins.begin[i]; b < a.twins.begin[i + 1]; ++b) {
+    const std::int64_t twins = a.twins.begin[i];
+    for (std::int64_t b = twins; b < twins + a.twins.count[i]; ++b) {
       const std::int64_t p = a.twins.end[b];
-      const double* zeta = a.twins.zeta + D * static_cast<std::int64_t>(b);
+      const double* zeta = a.twins.zeta + D * b;
       const double* other = a.P + kTensor * p;
       Row<D> pull = zeta[0] * (column[0] + load_row<D>(other));
       for (int c = 1; c < D; ++c) pull = pull + zeta[c] * (column[c] + load_row<D>(other + 3 * c));
@@ -84,13 +96,13 @@ void form_force(const BlockArrays& arrays) {
       double* to = a.f + kStride<D> * p;
       store_row<D>(load_row<D>(to) - pull, to);
     }
-    for (std::int32_t b = a.halves.begin[i]; b < a.halves.begin[i + 1]; ++b) {
-      const std::int64_t p = a.halves.end[b];
-      const double* zeta = a.halves.zeta + D * static_cast<std::int64_t>(b);
+    const std::int64_t halves = a.halves.begin[i];
+    for (std::int64_t b = halves; b < halves + a.halves.count[i]; ++b) {
+      const double* zeta = a.halves.zeta + D * b;
       Row<D> pull = zeta[0] * column[0];
       for (int c = 1; c < D; ++c) pull = pull + zeta[c] * column[c];
       sum = sum + pull;
-      double* to = a.f + kStride<D> * p;
+      double* to = vector_at<D>(a.f, a.foreign_f, a.own, a.halves.end[b]);
       store_row<D>(load_row<D>(to) - pull, to);
     }
     store_row<D>(sum, a.f + kStride<D> * i);
@@ -138,65 +150,52 @@ CLEAVE_INLINE Lanes length_of(const GroupRows<D>& X) {
   return square_root(square);
 }
 
-// Scales of all bonds of a kind, whatever row they belong to.  [out] scale (k)   [scratch] first (k)
-// own ends;  both with room for kGroup more
+// The bonds of one row: scale_ip x_ip on i (returned), the opposite on p.
 template <int D, bool kTwins>
-void viscous_scales(const BlockArrays& a, const BlockRows& rows) {
-  const std::int32_t count = rows.begin[a.own];
-  for (std::int32_t i = 0; i < a.own; ++i)
-    for (std::int32_t b = rows.begin[i]; b < rows.begin[i + 1]; ++b)
-      a.first[b] = static_cast<std::uint16_t>(i);
-  for (std::int32_t b = 0; b < count; b += kGroup) {
+CLEAVE_INLINE Row<D> viscous_row(const BlockArrays& a, const BlockRows& rows, std::int64_t i,
+                                 Row<D> sum) {
+  const Row<D> xi = load_row<D>(a.x + kStride<D> * i), vi = load_row<D>(a.v + kStride<D> * i);
+  const std::int64_t first = rows.begin[i], last = first + rows.count[i];
+  for (std::int64_t b = first; b < last; b += kGroup) {
     GroupRows<D> x, v;
-    double weight[kGroup];
-    std::int64_t i[kGroup], p[kGroup];
+    double weight[kGroup], scale[kGroup];
+    std::int64_t p[kGroup];
     for (int g = 0; g < kGroup; ++g) {
-      const std::int32_t bond = std::min(b + g, count - 1);
-      i[g] = a.first[bond];
+      const std::int64_t bond = std::min(b + g, last - 1);
       p[g] = rows.end[bond];
-      store_row<D>(load_row<D>(a.x + kStride<D> * p[g]) - load_row<D>(a.x + kStride<D> * i[g]),
-                   x.row[g]);
-      store_row<D>(load_row<D>(a.v + kStride<D> * p[g]) - load_row<D>(a.v + kStride<D> * i[g]),
-                   v.row[g]);
-      weight[g] = rows.weight[bond] * (kTwins ? a.J[i[g]] + a.J[p[g]] : a.J[i[g]]);
+      store_row<D>(load_row<D>(a.x + kStride<D> * p[g]) - xi, x.row[g]);
+      store_row<D>(load_row<D>(a.v + kStride<D> * p[g]) - vi, v.row[g]);
+      weight[g] = rows.weight[bond] * (kTwins ? a.J[i] + a.J[p[g]] : a.J[i]);
     }
     Lanes length(a.length);
     if (a.X != nullptr) {
       GroupRows<D> X;
+      const Row<D> Xi = load_row<D>(a.X + kStride<D> * i);
       for (int g = 0; g < kGroup; ++g)
-        store_row<D>(load_row<D>(a.X + kStride<D> * p[g]) - load_row<D>(a.X + kStride<D> * i[g]),
-                     X.row[g]);
+        store_row<D>(load_row<D>(a.X + kStride<D> * p[g]) - Xi, X.row[g]);
       length = length_of<D>(X);
     }
     store_lanes<Lanes, true>(viscous_scale<D>(a, x, v, length, load_lanes<Lanes, true>(weight, 1)),
-                             a.scale + b, 1);
-  }
-}
-
-// scale_ip x_ip on i, the opposite on p.
-template <int D>
-void add_viscous_rows(const BlockArrays& a, const BlockRows& rows) {
-  for (std::int64_t i = 0; i < a.own; ++i) {
-    const Row<D> xi = load_row<D>(a.x + kStride<D> * i);
-    Row<D> sum = load_row<D>(a.fv + kStride<D> * i);
-    for (std::int32_t b = rows.begin[i]; b < rows.begin[i + 1]; ++b) {
-      const std::int64_t p = rows.end[b];
-      const Row<D> force = a.scale[b] * (load_row<D>(a.x + kStride<D> * p) - xi);
+                             scale, 1);
+    for (int g = 0; g < kGroup && b + g < last; ++g) {
+      const Row<D> force = scale[g] * load_row<D>(x.row[g]);
       sum = sum + force;
-      double* to = a.fv + kStride<D> * p;
+      double* to = vector_at<D>(a.fv, a.foreign_fv, a.own, p[g]);
       store_row<D>(load_row<D>(to) - force, to);
     }
-    store_row<D>(sum, a.fv + kStride<D> * i);
   }
+  return sum;
 }
 
 template <int D>
 void form_viscous_force(const BlockArrays& arrays) {
   const BlockArrays a = arrays;
-  viscous_scales<D, true>(a, a.twins);
-  add_viscous_rows<D>(a, a.twins);
-  viscous_scales<D, false>(a, a.halves);
-  add_viscous_rows<D>(a, a.halves);
+  for (std::int64_t i = 0; i < a.own; ++i) {
+    Row<D> sum = load_row<D>(a.fv + kStride<D> * i);
+    sum = viscous_row<D, true>(a, a.twins, i, sum);
+    sum = viscous_row<D, false>(a, a.halves, i, sum);
+    store_row<D>(sum, a.fv + kStride<D> * i);
+  }
 }
 
 template <int D>
@@ -217,61 +216,58 @@ double largest_square_strain(const double* h, std::int32_t count) {
   return largest;
 }
 
-// One chain of sums a direction: they do not wait for each other.
+// Powers, one chain of sums a direction.
 template <int D>
-struct Sums {
-  double internal[D] = {}, viscous[D] = {}, external[D] = {};
+struct Powers {
+  Row<D> internal = 0.0, viscous = 0.0, external = 0.0;
+  static double over_directions(const Row<D>& r) {
+    double s = lane(r, 0);
+    for (int k = 1; k < D; ++k) s += lane(r, k);
+    return s;
+  }
   PowerSums total() const {
-    PowerSums t{internal[0], viscous[0], external[0]};
-    for (int k = 1; k < D; ++k) {
-      t.internal += internal[k];
-      t.viscous += viscous[k];
-      t.external += external[k];
-    }
-    return t;
+    return {over_directions(internal), over_directions(viscous), over_directions(external)};
   }
 };
 
 // Without forces from outside 0 is added, not nothing: the sign of a zero must not depend on whether there
 // were some before a restart.
-template <bool kViscous, bool kExternal>
-CLEAVE_INLINE double total_force(const MotionArrays& a, std::int64_t c) {
-  double f = a.f[c];
-  if constexpr (kViscous) f = f + a.fv[c];
-  return f + (kExternal ? a.fe[c] : 0.0);
+template <int D, bool kViscous, bool kExternal>
+CLEAVE_INLINE Row<D> total_force(const MotionArrays& a, std::int64_t c) {
+  Row<D> f = load_row<D>(a.f + c);
+  if constexpr (kViscous) f = f + load_row<D>(a.fv + c);
+  if constexpr (kExternal) return f + load_row<D>(a.fe + c);
+  return f + Row<D>(0.0);
 }
 template <int D, bool kViscous, bool kExternal>
-CLEAVE_INLINE void add_power(const MotionArrays& a, std::int64_t c, int k, double v, Sums<D>& s) {
-  s.internal[k] += a.f[c] * v;
-  if constexpr (kViscous) s.viscous[k] += a.fv[c] * v;
-  if constexpr (kExternal) s.external[k] += a.fe[c] * v;
+CLEAVE_INLINE void add_power(const MotionArrays& a, std::int64_t c, const Row<D>& v, Powers<D>& s) {
+  s.internal = s.internal + load_row<D>(a.f + c) * v;
+  if constexpr (kViscous) s.viscous = s.viscous + load_row<D>(a.fv + c) * v;
+  if constexpr (kExternal) s.external = s.external + load_row<D>(a.fe + c) * v;
 }
 
 template <int D, bool kViscous, bool kExternal>
 PowerSums advance(const MotionArrays& arrays, std::int64_t first, std::int64_t last, double half,
                   double dt, VelocityBox& box) {
   const MotionArrays a = arrays;
-  Sums<D> sums;
-  double low[D], high[D];
-  for (int k = 0; k < D; ++k) low[k] = high[k] = first < last ? a.v[D * first + k] : 0.0;
+  Powers<D> sums;
+  Row<D> low = 0.0, high = 0.0;
+  if (first < last) low = high = load_row<D>(a.v + kStride<D> * first);
   for (std::int64_t p = first; p < last; ++p) {
-    const double scale = a.driven[p] != 0 ? 0.0 : a.inverse_mass[p];
-    for (int k = 0; k < D; ++k) {
-      const std::int64_t c = D * p + k;
-      double v = a.v[c];
-      if (scale > 0) {
-        v = v + half * (total_force<kViscous, kExternal>(a, c) * scale);
-        add_power<D, kViscous, kExternal>(a, c, k, v, sums);
-        a.v[c] = v;
-        a.u[c] = a.u[c] + dt * v;
-      }
-      low[k] = v < low[k] ? v : low[k];
-      high[k] = v > high[k] ? v : high[k];
+    const std::int64_t c = kStride<D> * p;
+    Row<D> v = load_row<D>(a.v + c);
+    if (a.driven[p] == 0) {
+      v = v + half * (total_force<D, kViscous, kExternal>(a, c) * a.inverse_mass[p]);
+      add_power<D, kViscous, kExternal>(a, c, v, sums);
+      store_row<D>(v, a.v + c);
+      store_row<D>(load_row<D>(a.u + c) + dt * v, a.u + c);
     }
+    low = smaller(v, low);
+    high = larger(v, high);
   }
   for (int k = 0; k < 3; ++k) {
-    box.low[k] = k < D ? low[k] : 0.0;
-    box.high[k] = k < D ? high[k] : 0.0;
+    box.low[k] = k < D ? lane(low, k) : 0.0;
+    box.high[k] = k < D ? lane(high, k) : 0.0;
   }
   return sums.total();
 }
@@ -279,16 +275,14 @@ PowerSums advance(const MotionArrays& arrays, std::int64_t first, std::int64_t l
 template <int D, bool kViscous, bool kExternal>
 PowerSums kick(const MotionArrays& arrays, std::int64_t first, std::int64_t last, double half) {
   const MotionArrays a = arrays;
-  Sums<D> sums;
+  Powers<D> sums;
   for (std::int64_t p = first; p < last; ++p) {
     if (a.driven[p] != 0) continue;
-    const double scale = a.inverse_mass[p];
-    for (int k = 0; k < D; ++k) {
-      const std::int64_t c = D * p + k;
-      const double v = a.v[c];
-      add_power<D, kViscous, kExternal>(a, c, k, v, sums);
-      a.v[c] = v + half * (total_force<kViscous, kExternal>(a, c) * scale);
-    }
+    const std::int64_t c = kStride<D> * p;
+    const Row<D> v = load_row<D>(a.v + c);
+    add_power<D, kViscous, kExternal>(a, c, v, sums);
+    store_row<D>(v + half * (total_force<D, kViscous, kExternal>(a, c) * a.inverse_mass[p]),
+                 a.v + c);
   }
   return sums.total();
 }

@@ -1,45 +1,45 @@
-// The three loops over the bonds of one block, as functions of plain arrays in its local numbering. What
-// is done between them - the stress, the kick - is not known here.
+// The loops over the bonds and particles of one block, as functions of plain arrays. What is done between
+// them - the stress, the sums over the faces of blocks - is not known here.
 //
-// Order of sums: particle i gets the contributions of the twins whose first end comes before it, in the
-// order of those ends, then of its own twins, then of its halves; viscosity: all twins before all halves.
+// Order of sums: particle i gets the contributions of the rows before its own, in their order, then those
+// of its own twins, then of its own halves.
 #pragma once
 
 #include <cstdint>
 
 namespace cleave_call {
 
+// Rows of own particles; the other end of a bond is an own particle, or the foreign one end - own.
 struct BlockRows {
   const std::int32_t* begin;
+  const std::uint16_t* count;
   const std::uint16_t* end;
   const double* zeta;    // (D,k) [m2]
   const double* weight;  // (k) [m3], viscosity only
 };
 
-// Vectors of local particles stand at a distance of kStride: 4 doubles in space, 2 in the plane; the
-// fourth is never read for a result. P is (9,own) as everywhere. One more tensor's worth of memory
-// follows P, so that its columns may be loaded four at a time.
+// Vectors stand at a distance of kStride: 4 doubles in space, 2 in the plane; the fourth is never read for
+// a result. P is (9,own) as everywhere. One more tensor's worth of memory follows P, so that its columns
+// may be loaded four at a time.
 struct BlockArrays {
   std::int32_t own;
-  BlockRows twins, halves;
-  const double* u;       // (kStride, locals) displacement [m]
+  BlockRows twins, halves;      // twins have own ends only
+  const double *u, *foreign_u;  // (kStride, own), (kStride, foreign) displacement [m]
   double* rows;          // (D kStride, own) sums of u_ip (x) zeta_ip, row by row; zero at the start
   const double* volume;  // (own) Omega [m3]
   const double* P;       // (9, own) [Pa]
-  double* f;             // (kStride, locals) force [N]; zero at the start
+  double *f, *foreign_f;  // (kStride, own), (kStride, foreign) force [N]; zero at the start
   // Viscosity only.
-  const double *x, *v;   // (kStride, locals) position [m], velocity [m s-1]
-  const double* X;       // (kStride, locals) reference position; NULL: constant length
-  const double* J;       // (own) det F, not below zero
-  double* fv;            // (kStride, locals) force [N]; zero at the start
-  double* scale;         // scratch for every twin or half and 4 more
-  std::uint16_t* first;  // the same
-  double coefficient;    // beta rho0 c0 [Pa s m-1]
-  double length;         // l [m]
+  const double *x, *v;      // (kStride, own and foreign) position [m], velocity [m s-1]
+  const double* X;          // (kStride, own and foreign) reference position; NULL: constant length
+  const double* J;          // (own) det F, not below zero
+  double *fv, *foreign_fv;  // as f
+  double coefficient;       // beta rho0 c0 [Pa s m-1]
+  double length;            // l [m]
 };
 
-// Particles first <= p < last of the whole body; vectors stand at a distance of D. Pointers that may be NULL
-// say so.
+// Particles first <= p < last of the whole body; vectors stand at a distance of kStride. Pointers that may
+// be NULL say so.
 struct MotionArrays {
   double *u, *v;               // [m], [m s-1]
   const double* f;             // force of the bonds [N]
@@ -68,10 +68,10 @@ struct BlockKernels {
   void (*gradient[2])(const BlockArrays&, std::int32_t first, std::int32_t last, double* h);
   // Largest |2 E|^2 of `count` tensors H, with 2 E = H + H^T + H^T H and the Frobenius norm.
   double (*square_strain[2])(const double* h, std::int32_t count);
-  // f of all local particles: P_i zeta_ip - P_p zeta_pi on i and the opposite on p; of a half the part
+  // f of own and foreign particles: P_i zeta_ip - P_p zeta_pi on i and the opposite on p; of a half the part
   // of its own end.                                                                  [CBM 18, 19]
   void (*force[2])(const BlockArrays&);
-  // fv of all local particles, form "frozen".                                        [CBM 21, 22]
+  // fv of own and foreign particles, form "frozen".                                        [CBM 21, 22]
   void (*viscous_force[2])(const BlockArrays&);
 };
 

@@ -21,6 +21,9 @@ std::int64_t number_of_blocks(std::int64_t n) {
 // the area of a facet.
 constexpr double kTwin = 1e-13;
 
+// After the last bond vector, so that four numbers may be loaded at each.
+constexpr std::size_t kPadding = 4;
+
 std::size_t at(std::int64_t k) { return static_cast<std::size_t>(k); }
 
 bool is_zero(const double* zeta, int dimension) {
@@ -38,11 +41,10 @@ bool is_twin(const double* zeta, const double* back, int dimension) {
   return off <= kTwin * largest;
 }
 
-// A little below the square of the length at which the bond of a half-bond breaks; 0 where that is no
-// number of this precision, so that the bond itself is asked.
-float limit_of(const Network& network, std::int32_t half) {
-  const std::int32_t bond = network.bond_of_half[at(half)];
-  const double limit = (1 + network.critical[bond]) * network.length[bond];
+// A little below the square of the length at which a bond breaks; 0 where that is no number of this
+// precision, so that the bond itself is asked.
+float limit_of(const Network& network, std::int32_t i, std::int32_t p) {
+  const double limit = (1 + network.critical[network.find_bond(i, p)]) * network.length(i, p);
   const double square = limit * limit * (1 - 1e-7);
   if (!(square < std::numeric_limits<double>::infinity()))
     return std::numeric_limits<float>::infinity();
@@ -53,6 +55,7 @@ float limit_of(const Network& network, std::int32_t half) {
 
 void clear(BlockBonds& bonds) {
   bonds.begin.clear();
+  bonds.count.clear();
   bonds.end.clear();
   bonds.zeta.clear();
   bonds.weight.clear();
@@ -66,20 +69,24 @@ void fit(std::vector<T>& list, std::int64_t capacity) {
 }
 void fit(BlockBonds& bonds, int dimension, std::int64_t capacity, bool weights, bool limits) {
   fit(bonds.end, capacity);
-  fit(bonds.zeta, dimension * capacity + 4);
+  fit(bonds.zeta, dimension * capacity + kPadding);
   fit(bonds.weight, weights ? capacity : 0);
   fit(bonds.square_limit, limits ? capacity : 0);
 }
 
 template <class T>
-void append(const std::vector<T>& from, std::int32_t first, std::int32_t last, std::vector<T>& to) {
-  to.insert(to.end(), from.begin() + first, from.begin() + last);
+void append(const std::vector<T>& from, std::int64_t first, std::int64_t last, std::vector<T>& to) {
+  if (!from.empty()) to.insert(to.end(), from.begin() + first, from.begin() + last);
 }
 
+void pad(BlockBonds& bonds) { bonds.zeta.resize(bonds.zeta.size() + kPadding, 0.0); }
+void unpad(BlockBonds& bonds) { bonds.zeta.resize(bonds.zeta.size() - kPadding); }
+
 std::int64_t bytes_of(const BlockBonds& b) {
-  return static_cast<std::int64_t>(
-      b.begin.size() * sizeof(std::int32_t) + b.end.size() * sizeof(std::uint16_t) +
-      b.square_limit.size() * sizeof(float) + (b.zeta.size() + b.weight.size()) * sizeof(double));
+  return static_cast<std::int64_t>(b.begin.size() * sizeof(std::int32_t) +
+                                   (b.end.size() + b.count.size()) * sizeof(std::uint16_t) +
+                                   b.square_limit.size() * sizeof(float) +
+                                   (b.zeta.size() + b.weight.size()) * sizeof(double));
 }
 
 }  // namespace
@@ -101,8 +108,8 @@ void BlockNetwork::order_particles(const Body& body, const Network& network) {
   }
   for (Block& block : blocks) {
     const auto on_surface = [&](std::int32_t i) {
-      for (std::int32_t h = network.row_begin[at(i)]; h < network.row_begin[at(i) + 1]; ++h)
-        if (owner[at(network.neighbour[at(h)])] != owner[at(i)]) return true;
+      for (const std::int32_t p : network.neighbours(i))
+        if (owner[at(p)] != owner[at(i)]) return true;
       return false;
     };
     const auto first = given.begin() + block.first;
@@ -116,9 +123,8 @@ void BlockNetwork::order_particles(const Body& body, const Network& network) {
 void BlockNetwork::find_foreign(const Network& network, Block& block) const {
   block.foreign.clear();
   for (std::int32_t p = block.first; p < block.first + block.surface; ++p) {
-    const auto i = at(given[at(p)]);
-    for (std::int32_t h = network.row_begin[i]; h < network.row_begin[i + 1]; ++h) {
-      const std::int32_t q = place[at(network.neighbour[at(h)])];
+    for (const std::int32_t other : network.neighbours(given[at(p)])) {
+      const std::int32_t q = place[at(other)];
       if (q < block.first || q >= block.first + block.own) block.foreign.push_back(q);
     }
   }
@@ -151,29 +157,35 @@ void BlockNetwork::collect_incoming() {
   }
 }
 
-void BlockNetwork::make_row(const Network& network, int dimension, const Block& block,
-                            std::int32_t l, Workspace& work) const {
+// Appends to work.twins and work.halves.
+void BlockNetwork::make_row(const Network& network, const Block& block, std::int32_t l,
+                            Workspace& work) const {
+  const int dimension = network.dimension;
+  const std::int32_t i = given[at(block.first + l)];
+  const std::span<const std::int32_t> neighbours = network.neighbours(i);
   const auto local = [&](std::int32_t q) {
     if (q >= block.first && q < block.first + block.own) return q - block.first;
     const auto found = std::lower_bound(block.foreign.begin(), block.foreign.end(), q);
     return block.own + static_cast<std::int32_t>(found - block.foreign.begin());
   };
   const auto add = [&](BlockBonds& bonds, const Entry& e, const double* zeta) {
+    const std::int32_t p = neighbours[at(e.position)];
     bonds.end.push_back(static_cast<std::uint16_t>(e.local));
     bonds.zeta.insert(bonds.zeta.end(), zeta, zeta + dimension);
-    if (with_weights_) bonds.weight.push_back(network.weight[e.half]);
-    if (with_limits_) bonds.square_limit.push_back(limit_of(network, e.half));
+    if (with_weights_) bonds.weight.push_back(network.weight(i, p, zeta));
+    if (with_limits_) bonds.square_limit.push_back(limit_of(network, i, p));
   };
-  const auto i = at(given[at(block.first + l)]);
+  dimension == 2 ? network.form_row<2>(i, work.zeta.data(), work.back.data())
+                 : network.form_row<3>(i, work.zeta.data(), work.back.data());
   std::vector<Entry>& row = work.row;
   row.clear();
-  for (std::int32_t h = network.row_begin[i]; h < network.row_begin[i + 1]; ++h)
-    row.push_back({local(place[at(network.neighbour[at(h)])]), h});
+  for (std::size_t k = 0; k < neighbours.size(); ++k)
+    row.push_back({local(place[at(neighbours[k])]), static_cast<std::int32_t>(k)});
   std::sort(row.begin(), row.end(),
             [](const Entry& a, const Entry& b) { return a.local < b.local; });
   for (const Entry& e : row) {
-    const double* zeta = network.zeta + kVector * e.half;
-    const double* back = network.zeta + kVector * network.reverse[at(e.half)];
+    const double* zeta = work.zeta.data() + kVector * e.position;
+    const double* back = work.back.data() + kVector * e.position;
     if (is_zero(zeta, dimension)) continue;  // no live simplex left
     if (e.local < block.own && is_twin(zeta, back, dimension)) {
       if (e.local > l) add(work.twins, e, zeta);
@@ -183,56 +195,90 @@ void BlockNetwork::make_row(const Network& network, int dimension, const Block& 
   }
 }
 
-void BlockNetwork::rebuild(const Network& network, int dimension, const char* changed, Block& block,
-                           Workspace& work) const {
+void BlockNetwork::rebuild(const Network& network, Block& block, Workspace& work) const {
   clear(work.twins);
   clear(work.halves);
-  const auto begin_row = [](BlockBonds& bonds) {
-    bonds.begin.push_back(static_cast<std::int32_t>(bonds.count()));
-  };
-  const auto copy_row = [&](const BlockBonds& from, std::int32_t l, BlockBonds& to) {
-    const std::int32_t first = from.begin[at(l)], last = from.begin[at(l) + 1];
-    append(from.end, first, last, to.end);
-    append(from.zeta, dimension * first, dimension * last, to.zeta);
-    if (with_weights_) append(from.weight, first, last, to.weight);
-    if (with_limits_) append(from.square_limit, first, last, to.square_limit);
-  };
   for (std::int32_t l = 0; l < block.own; ++l) {
-    begin_row(work.twins);
-    begin_row(work.halves);
-    if (changed == nullptr || changed[block.first + l] != 0) {
-      make_row(network, dimension, block, l, work);
-    } else {
-      copy_row(block.twins, l, work.twins);
-      copy_row(block.halves, l, work.halves);
-    }
-  }
-  for (BlockBonds* bonds : {&work.twins, &work.halves}) {
-    begin_row(*bonds);
-    bonds->zeta.resize(bonds->zeta.size() + 4, 0.0);
+    for (BlockBonds* bonds : {&work.twins, &work.halves})
+      bonds->begin.push_back(static_cast<std::int32_t>(bonds->size()));
+    make_row(network, block, l, work);
+    for (BlockBonds* bonds : {&work.twins, &work.halves})
+      bonds->count.push_back(static_cast<std::uint16_t>(bonds->size() - bonds->begin.back()));
   }
   // Copied, not swapped: a block keeps the memory that was reserved for it.
+  for (BlockBonds* bonds : {&work.twins, &work.halves}) pad(*bonds);
   block.twins = work.twins;
   block.halves = work.halves;
 }
 
-// Every bond a half at both ends.
-std::int64_t BlockNetwork::most_bonds() const {
-  std::int64_t bonds = 0;
-  for (const Block& block : blocks)
-    bonds = std::max(bonds, 2 * block.twins.count() + block.halves.count());
-  return bonds;
+// A row that grew goes to the end.
+void BlockNetwork::put_row(int dimension, std::int32_t l, const BlockBonds& row,
+                           BlockBonds& bonds) const {
+  const auto overwrite = [&](const auto& from, auto& to, std::int64_t components) {
+    std::copy(from.begin(), from.end(), to.begin() + components * bonds.begin[at(l)]);
+  };
+  if (row.size() <= bonds.count[at(l)]) {
+    overwrite(row.end, bonds.end, 1);
+    overwrite(row.zeta, bonds.zeta, dimension);
+    overwrite(row.weight, bonds.weight, 1);
+    overwrite(row.square_limit, bonds.square_limit, 1);
+  } else {
+    unpad(bonds);
+    bonds.begin[at(l)] = static_cast<std::int32_t>(bonds.size());
+    append(row.end, 0, row.size(), bonds.end);
+    append(row.zeta, 0, dimension * row.size(), bonds.zeta);
+    append(row.weight, 0, row.size(), bonds.weight);
+    append(row.square_limit, 0, row.size(), bonds.square_limit);
+    pad(bonds);
+  }
+  bonds.count[at(l)] = static_cast<std::uint16_t>(row.size());
 }
 
-void BlockNetwork::reserve(Workspace& work, int dimension) const {
-  const std::int64_t bonds = most_bonds();
-  std::int64_t rows = 0;
-  for (const Block& block : blocks) rows = std::max<std::int64_t>(rows, block.own + 1);
-  work.row.reserve(at(longest_row));
-  for (BlockBonds* b : {&work.twins, &work.halves}) {
-    b->begin.reserve(at(rows));
-    fit(*b, dimension, bonds, with_weights_, with_limits_);
+void BlockNetwork::move_together(int dimension, BlockBonds& bonds, BlockBonds& scratch) const {
+  clear(scratch);
+  for (std::size_t l = 0; l < bonds.begin.size(); ++l) {
+    const std::int64_t first = bonds.begin[l], last = first + bonds.count[l];
+    scratch.begin.push_back(static_cast<std::int32_t>(scratch.size()));
+    scratch.count.push_back(bonds.count[l]);
+    append(bonds.end, first, last, scratch.end);
+    append(bonds.zeta, dimension * first, dimension * last, scratch.zeta);
+    append(bonds.weight, first, last, scratch.weight);
+    append(bonds.square_limit, first, last, scratch.square_limit);
   }
+  pad(scratch);
+  bonds = scratch;
+}
+
+void BlockNetwork::rebuild_row(const Network& network, Block& block, std::int32_t l,
+                               Workspace& work) const {
+  clear(work.twins);
+  clear(work.halves);
+  make_row(network, block, l, work);
+  for (const auto& [row, bonds] :
+       {std::pair{&work.twins, &block.twins}, std::pair{&work.halves, &block.halves}}) {
+    const bool grows = row->size() > bonds->count[at(l)];
+    if (grows && at(bonds->size() + row->size()) > bonds->end.capacity()) {
+      move_together(network.dimension, *bonds, work.together);
+    }
+    put_row(network.dimension, l, *row, *bonds);
+  }
+}
+
+// Every bond a half at both ends.
+void BlockNetwork::reserve(Workspace& work, const Network& network) const {
+  const std::int32_t row = network.longest_row();
+  std::int64_t bonds = 0;
+  for (const Block& block : blocks)
+    bonds = std::max(bonds, 2 * block.twins.size() + block.halves.size());
+  work.row.reserve(at(row));
+  work.zeta.resize(kVector * at(row));
+  work.back.resize(kVector * at(row));
+  for (BlockBonds* b : {&work.twins, &work.halves})
+    fit(*b, network.dimension, row, with_weights_, with_limits_);
+  if (!with_limits_) return;
+  work.together.begin.reserve(at(most_own));
+  work.together.count.reserve(at(most_own));
+  fit(work.together, network.dimension, bonds, with_weights_, with_limits_);
 }
 
 bool BlockNetwork::build(const Body& body, const Network& network, bool with_weights,
@@ -242,20 +288,24 @@ bool BlockNetwork::build(const Body& body, const Network& network, bool with_wei
   order_particles(body, network);
   team.for_blocks(static_cast<std::int64_t>(blocks.size()),
                   [&](std::int64_t b) { find_foreign(network, blocks[at(b)]); });
-  largest = 0;
-  for (const Block& block : blocks) largest = std::max(largest, block.locals());
+  largest = most_own = most_foreign = 0;
+  for (const Block& block : blocks) {
+    largest = std::max(largest, block.locals());
+    most_own = std::max(most_own, block.own);
+    most_foreign = std::max(most_foreign, block.locals() - block.own);
+  }
   if (largest > std::numeric_limits<std::uint16_t>::max()) return false;
-  longest_row = 0;
-  for (std::size_t i = 0; i + 1 < network.row_begin.size(); ++i)
-    longest_row = std::max(longest_row, network.row_begin[i + 1] - network.row_begin[i]);
   collect_incoming();
+  const auto row = at(kVector * static_cast<std::int64_t>(network.longest_row()));
   team.for_blocks(static_cast<std::int64_t>(blocks.size()), [&](std::int64_t b) {
     Block& block = blocks[at(b)];
     Workspace work;
-    rebuild(network, body.dimension(), nullptr, block, work);
+    work.zeta.resize(row);
+    work.back.resize(row);
+    rebuild(network, block, work);
     // A twin that breaks open becomes two halves. What is reserved and not used costs no memory.
-    const std::int64_t halves = block.halves.count() + (with_limits ? 2 * block.twins.count() : 0);
-    fit(block.twins, body.dimension(), block.twins.count(), with_weights, with_limits);
+    const std::int64_t halves = block.halves.size() + (with_limits ? 2 * block.twins.size() : 0);
+    fit(block.twins, body.dimension(), block.twins.size(), with_weights, with_limits);
     fit(block.halves, body.dimension(), halves, with_weights, with_limits);
   });
   return true;

@@ -1,5 +1,5 @@
 // The bond network in the order of the explicit step: particles cut into fixed blocks that fit a core's
-// cache, bonds stored block by block. A copy of Network, which stays the truth; what breaks there is
+// cache, bonds stored block by block. Made from Network, which stays the truth; what breaks there is
 // rebuilt here. Knows geometry only.
 //
 // Inside a block a bond is one of two kinds:
@@ -19,16 +19,19 @@
 
 namespace cleave::cbm {
 
-// Bonds of one kind, in rows of own particles.
+// Bonds of one kind, in rows of own particles. After bonds broke there may be gaps between rows, and rows
+// need not follow each other.
 struct BlockBonds {
-  std::vector<std::int32_t> begin;  // (own+1)
-  std::vector<std::uint16_t> end;   // (k)   local number of the other end
-  std::vector<double> zeta;         // (D,k) and padding, so that vectors of four may be loaded
-  std::vector<double> weight;       // (k)   zeta_ip . X_ip [m3]; with viscosity only
+  std::vector<std::int32_t> begin;   // (own) first bond of a row
+  std::vector<std::uint16_t> count;  // (own) bonds of a row
+  std::vector<std::uint16_t> end;    // (k)   local number of the other end
+  std::vector<double> zeta;          // (D,k) and padding, so that vectors of four may be loaded
+  std::vector<double> weight;        // (k)   zeta_ip . X_ip [m3]; with viscosity only
   std::vector<float> square_limit;  // (k)   below the square of the length at which the bond breaks
                                     //       [m2]; with fracture only
 
-  std::int64_t count() const { return static_cast<std::int64_t>(end.size()); }
+  // Bonds and gaps.
+  std::int64_t size() const { return static_cast<std::int64_t>(end.size()); }
 };
 
 struct Block {
@@ -47,32 +50,32 @@ class BlockNetwork {
   // False if a block has more particles around it than local numbers reach.
   bool build(const Body& body, const Network& network, bool with_weights, bool with_limits,
              ThreadTeam& team);
-  // A bond of a particle: the other end's local number, the half-bond.
+  // A bond of a particle: the other end's local number, its position in the row of the network.
   struct Entry {
-    std::int32_t local, half;
+    std::int32_t local, position;
   };
-  // Scratch of rebuild().
+  // Scratch of the functions below.
   struct Workspace {
     std::vector<Entry> row;
-    BlockBonds twins, halves;
+    std::vector<double> zeta, back;  // (3,row)
+    BlockBonds twins, halves, together;
   };
-  void reserve(Workspace& work, int dimension) const;
-  // Rows of the block anew from those of the network.      [in] changed (n) 0: the row of the particle at
-  // this place is as before; nullptr: all are made
-  void rebuild(const Network& network, int dimension, const char* changed, Block& block,
-               Workspace& work) const;
+  void reserve(Workspace& work, const Network& network) const;
+  // All rows of the block from the network.
+  void rebuild(const Network& network, Block& block, Workspace& work) const;
+  // One row of it. The work is that of a row, as long as the memory for halves lasts; then rows are moved
+  // together first.
+  void rebuild_row(const Network& network, Block& block, std::int32_t local, Workspace& work) const;
 
   // Of the particle at a place.
   std::int32_t block_of(std::int32_t p) const { return block_of_[static_cast<std::size_t>(p)]; }
-  // Of one kind that a block can come to have.
-  std::int64_t most_bonds() const;
   std::int64_t bytes() const;
 
   std::vector<std::int32_t> given;  // (n) number of the particle at a place
   std::vector<std::int32_t> place;  // (n) and the other way round
   std::vector<Block> blocks;
-  std::int32_t largest = 0;      // locals() of the largest block
-  std::int32_t longest_row = 0;  // bonds of a particle
+  std::int32_t largest = 0;                     // locals() of the largest block
+  std::int32_t most_foreign = 0, most_own = 0;  // particles of a block
   // What a block adds to a foreign particle stands in the slot of the two. Slots of every surface
   // particle, in the order of blocks: incoming[incoming_begin[place] ...].
   std::int64_t slots = 0;
@@ -81,8 +84,10 @@ class BlockNetwork {
  private:
   void order_particles(const Body& body, const Network& network);
   void find_foreign(const Network& network, Block& block) const;
-  void make_row(const Network& network, int dimension, const Block& block, std::int32_t local,
+  void make_row(const Network& network, const Block& block, std::int32_t local,
                 Workspace& work) const;
+  void put_row(int dimension, std::int32_t local, const BlockBonds& row, BlockBonds& bonds) const;
+  void move_together(int dimension, BlockBonds& bonds, BlockBonds& scratch) const;
   void collect_incoming();
 
   bool with_weights_ = false, with_limits_ = false;

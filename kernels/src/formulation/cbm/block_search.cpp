@@ -60,14 +60,15 @@ void BlockSearch::look(const Network& network, const BlockNetwork& blocks, const
   for (std::int64_t l = 0; l < block.locals(); ++l) {
     const std::int64_t p = place(l);
     for (int k = 0; k < D; ++k) {
-      x[D * l + k] = X[D * p + k] + u[D * p + k];
-      extent = std::fmax(extent, std::fabs(X[D * p + k]) + std::fabs(u[D * p + k]));
+      const double displacement = u[kStride<D> * p + k];
+      x[D * l + k] = X[D * p + k] + displacement;
+      extent = std::fmax(extent, std::fabs(X[D * p + k]) + std::fabs(displacement));
     }
   }
   const auto meets = [&](std::int64_t i, std::int64_t p, double square) {
-    const std::int32_t bond =
-        network.find_bond(blocks.given[at(place(i))], blocks.given[at(place(p))]);
-    const double limit = (1 + network.critical[bond]) * network.length[bond];
+    const std::int32_t first = blocks.given[at(place(i))], second = blocks.given[at(place(p))];
+    const std::int32_t bond = network.find_bond(first, second);
+    const double limit = (1 + network.critical[bond]) * network.length(first, second);
     return network.status[bond] == kIntact && square >= limit * limit ? bond : -1;
   };
   const auto test = [&](std::int64_t i, std::int64_t p, float limit) {
@@ -84,12 +85,16 @@ void BlockSearch::look(const Network& network, const BlockNetwork& blocks, const
     if (bond >= 0) found.push_back(bond);
   };
   for (std::int64_t i = 0; i < block.own; ++i) {
-    for (std::int32_t b = block.twins.begin[at(i)]; b < block.twins.begin[at(i) + 1]; ++b)
-      test(i, block.twins.end[at(b)], block.twins.square_limit[at(b)]);
-    for (std::int32_t b = block.halves.begin[at(i)]; b < block.halves.begin[at(i) + 1]; ++b) {
+    const auto row = [i](const BlockBonds& bonds, const auto& f) {
+      for (std::int32_t b = bonds.begin[at(i)]; b < bonds.begin[at(i)] + bonds.count[at(i)]; ++b)
+        f(b);
+    };
+    row(block.twins,
+        [&](std::int32_t b) { test(i, block.twins.end[at(b)], block.twins.square_limit[at(b)]); });
+    row(block.halves, [&](std::int32_t b) {
       const std::int64_t p = block.halves.end[at(b)];
       if (place(i) < place(p)) test(i, p, block.halves.square_limit[at(b)]);
-    }
+    });
   }
   margin.slack = longest > 0 ? least / (2 * std::sqrt(static_cast<double>(longest)) * (1 + 1e-6))
                              : std::numeric_limits<double>::infinity();

@@ -1,6 +1,5 @@
 // What goes between the fields of a body and the arrays of the step in blocks.
 #include <algorithm>
-#include <numeric>
 
 #include "core/instruction_set.hpp"
 #include "formulation/cbm/block_step.hpp"
@@ -31,43 +30,39 @@ std::int64_t bytes_of(const Reals& a) {
 
 }  // namespace
 
-bool BlockStep::setup(const Body& body) {
+bool BlockStep::setup(const Body& body, ThreadTeam& team) {
+  team_ = &team;
   kernels_ = &CLEAVE_KERNELS(kBlockKernels).chosen(InstructionSet::avx2);
   loaded_ = false;
   current_.fill(true);
+  held_.fill(true);
+  asked_.fill(false);
   if (!net_.build(body, parts_.network, parts_.viscosity != nullptr, parts_.fracture.active(),
                   *team_))
     return false;
   search_.setup(net_, parts_.fracture.active());
   results_.assign(net_.blocks.size(), {});
   boxes_.assign(net_.blocks.size(), {});
-  redo_.resize(net_.blocks.size());
-  std::iota(redo_.begin(), redo_.end(), 0);
-  in_redo_.assign(net_.blocks.size(), 0);
-  row_changed_.assign(at(body.particles), 0);
+  rows_loaded_ = true;
   return true;
 }
 
 void BlockStep::fit_scratch(int dimension) {
   if (static_cast<std::int64_t>(scratch_.size()) >= team_->size()) return;
   const int stride = dimension == 3 ? kStride<3> : kStride<2>;
-  std::int32_t own = 0;
-  for (const Block& block : net_.blocks) own = std::max(own, block.own);
+  const std::int64_t own = net_.most_own;
   scratch_.resize(at(team_->size()));
   const auto locals = at(stride * static_cast<std::int64_t>(net_.largest));
   const bool viscous = parts_.viscosity != nullptr;
   for (Scratch& s : scratch_) {
-    s.u.assign(locals, 0.0);
-    s.f.assign(locals, 0.0);
-    s.rows.assign(at(dimension * stride * static_cast<std::int64_t>(own)), 0.0);
+    s.u.assign(at(stride * static_cast<std::int64_t>(net_.most_foreign)), 0.0);
+    s.rows.assign(at(dimension * stride * own), 0.0);
     s.h.assign(at(kTensor * own), 0.0);
     if (P_.empty()) s.P.assign(at(kTensor * (own + 1)), 0.0);
-    for (auto* a : {&s.x, &s.v, &s.fv}) a->assign(viscous ? locals : 0, 0.0);
-    s.X.assign(viscous && parts_.viscosity->lengths != nullptr ? locals : 0, 0.0);
+    for (auto* a : {&s.x, &s.v}) a->assign(viscous ? locals : 0, 0.0);
+    s.X.assign(viscous && parts_.local_lengths ? locals : 0, 0.0);
     s.J.assign(viscous ? at(own) : 0, 0.0);
-    s.scale.assign(viscous ? at(net_.most_bonds() + 4) : 0, 0.0);
-    s.first.assign(s.scale.size(), 0);
-    if (parts_.fracture.active()) net_.reserve(s.rows_of_block, dimension);
+    net_.reserve(s.rows_of_block, parts_.network);
   }
 }
 
@@ -75,49 +70,62 @@ template <int D>
 void BlockStep::load(Body& body) {
   const std::int64_t n = body.particles;
   const PointArrays& pt = body.point;
-  const auto vectors = [&](const double* field, std::vector<double>& to) {
-    to.resize(at(D * n));
-    for (std::int64_t p = 0; p < n; ++p)
-      for (int k = 0; k < D; ++k) to[at(D * p + k)] = field[kVector * net_.given[at(p)] + k];
+  const auto vectors = [&](const double* field, std::int64_t stride, auto& to) {
+    to.resize(at(stride * n));
+    for_blocks(*team_, n, [&](std::int64_t, std::int64_t first, std::int64_t last) {
+      for (std::int64_t p = first; p < last; ++p)
+        for (int k = 0; k < D; ++k) to[at(stride * p + k)] = field[kVector * net_.given[at(p)] + k];
+    });
   };
-  vectors(pt.X, X_);
-  vectors(pt.u, u_);
-  vectors(pt.v, v_);
-  vectors(pt.internal, f_);
-  slots_.resize(at(D * net_.slots));
+  if (parts_.viscosity != nullptr || parts_.fracture.active()) vectors(pt.X, D, X_);
+  vectors(pt.u, kStride<D>, u_);
+  vectors(pt.v, kStride<D>, v_);
+  vectors(pt.internal, kStride<D>, f_);
+  slots_.resize(at(kStride<D> * net_.slots));
   if (parts_.viscosity != nullptr) {
-    vectors(pt.viscous, fv_);
-    viscous_slots_.resize(at(D * net_.slots));
+    vectors(pt.viscous, kStride<D>, fv_);
+    viscous_slots_.resize(at(kStride<D> * net_.slots));
   }
   inverse_mass_.resize(at(n));
   volume_.resize(at(n));
-  for (std::int64_t p = 0; p < n; ++p) {
-    inverse_mass_[at(p)] = 1 / pt.mass[net_.given[at(p)]];
-    volume_[at(p)] = pt.volume[net_.given[at(p)]];
-  }
   history_.resize(body.law->history.size());
-  for (std::size_t k = 0; k < history_.size(); ++k) {
-    const std::int64_t stride = body.history.stride[k];
-    history_[k].resize(at(stride * n));
-    for (std::int64_t p = 0; p < n; ++p)
-      std::copy_n(body.history.base[k] + stride * net_.given[at(p)], stride,
-                  history_[k].begin() + stride * p);
+  for (std::size_t k = 0; k < history_.size(); ++k)
+    history_[k].resize(at(body.history.stride[k] * n));
+  for (std::int64_t p = 0; p < n; ++p) {
+    const std::int64_t i = net_.given[at(p)];
+    inverse_mass_[at(p)] = 1 / pt.mass[i];
+    volume_[at(p)] = pt.volume[i];
+    for (std::size_t k = 0; k < history_.size(); ++k) {
+      const std::int64_t stride = body.history.stride[k];
+      std::copy_n(body.history.base[k] + stride * i, stride, history_[k].begin() + stride * p);
+    }
+    if (P_.empty()) continue;
+    std::copy_n(pt.p + kTensor * i, kTensor, P_.begin() + kTensor * p);
+    energy_[at(p)] = pt.energy[i];
   }
   load_external<D>(body);
   load_driven(body);
   search_.forget();
-  loaded_ = true;
-  // The rows may have changed with what was put.
-  redo_.resize(net_.blocks.size());
-  std::iota(redo_.begin(), redo_.end(), 0);
-  rebuild_blocks(body, nullptr);
+  if (!rows_loaded_) rebuild_all_rows();
+  rows_loaded_ = loaded_ = true;
+  current_.fill(true);
+  current_[kDeformation] = false;
 }
 
-void BlockStep::rebuild_blocks(const Body& body, const char* changed_rows) {
-  team_->for_blocks(static_cast<std::int64_t>(redo_.size()), [&](std::int64_t k, int worker) {
-    net_.rebuild(parts_.network, body.dimension(), changed_rows, net_.blocks[at(redo_[at(k)])],
-                 scratch_[at(worker)].rows_of_block);
+void BlockStep::rebuild_all_rows() {
+  team_->for_blocks(static_cast<std::int64_t>(net_.blocks.size()), [&](std::int64_t b, int worker) {
+    net_.rebuild(parts_.network, net_.blocks[at(b)], scratch_[at(worker)].rows_of_block);
   });
+}
+
+// Of particles that lost a simplex.
+void BlockStep::rebuild_rows(const Body& body, std::span<const std::int32_t> particles) {
+  for (const std::int32_t i : particles) {
+    const std::int32_t place = net_.place[at(i)];
+    Block& block = net_.blocks[at(net_.block_of(place))];
+    volume_[at(place)] = body.point.volume[i];
+    net_.rebuild_row(parts_.network, block, place - block.first, scratch_.front().rows_of_block);
+  }
 }
 
 void BlockStep::prepare(Body& body, ThreadTeam& team) {
@@ -127,6 +135,7 @@ void BlockStep::prepare(Body& body, ThreadTeam& team) {
     energy_.resize(at(body.particles));
   }
   fit_scratch(body.dimension());
+  if (!loaded_) parts_.network.drop_rows();
   if (!loaded_) body.dimension() == 2 ? load<2>(body) : load<3>(body);
 }
 
@@ -139,9 +148,10 @@ void BlockStep::load_external(const Body& body) {
         std::any_of(field, field + kVector * n, [](double component) { return component != 0; });
   }
   if (has_external_) {
-    fe_.resize(at(D * n));
+    fe_.resize(at(kStride<D> * n));
     for (std::int64_t p = 0; p < n; ++p)
-      for (int k = 0; k < D; ++k) fe_[at(D * p + k)] = field[kVector * net_.given[at(p)] + k];
+      for (int k = 0; k < D; ++k)
+        fe_[at(kStride<D> * p + k)] = field[kVector * net_.given[at(p)] + k];
   }
   external_loaded_ = true;
 }
@@ -168,9 +178,10 @@ void BlockStep::load_driven(const Body& body) {
 void BlockStep::changed(std::string_view field) {
   if (field == "external_force") {
     external_loaded_ = false;
-  } else {
-    loaded_ = false;
+    return;
   }
+  loaded_ = false;
+  if (field.empty() || field == "simplex_alive" || field == "critical_strain") rows_loaded_ = false;
 }
 
 template <int D>
@@ -181,9 +192,9 @@ void BlockStep::fetch_motion(Body& body) {
     for (std::int64_t p = block.first; p < block.first + block.own; ++p)
       for (int k = 0; k < D; ++k) {
         const std::int64_t c = kVector * net_.given[at(p)] + k;
-        pt.u[c] = u_[at(D * p + k)];
+        pt.u[c] = u_[at(kStride<D> * p + k)];
         pt.x[c] = pt.X[c] + pt.u[c];
-        pt.v[c] = v_[at(D * p + k)];
+        pt.v[c] = v_[at(kStride<D> * p + k)];
       }
   });
 }
@@ -195,7 +206,7 @@ void BlockStep::fetch_forces(Body& body) {
     const Block& block = net_.blocks[at(b)];
     for (std::int64_t p = block.first; p < block.first + block.own; ++p)
       for (int k = 0; k < D; ++k) {
-        const std::int64_t c = kVector * net_.given[at(p)] + k, mine = D * p + k;
+        const std::int64_t c = kVector * net_.given[at(p)] + k, mine = kStride<D> * p + k;
         pt.internal[c] = f_[at(mine)];
         if (!fv_.empty()) pt.viscous[c] = fv_[at(mine)];
         pt.a[c] = total(mine) * inverse_mass_[at(p)];
@@ -206,21 +217,31 @@ void BlockStep::fetch_forces(Body& body) {
       if (d.dof[at(k)] >= 0) pt.a[kVector * net_.given[at(d.place)] + k] = d.a[at(k)];
 }
 
-void BlockStep::fetch_history(Body& body, std::int64_t place) const {
-  for (std::size_t k = 0; k < history_.size(); ++k) {
-    const std::int64_t stride = body.history.stride[k];
-    std::copy_n(history_[k].begin() + stride * place, stride,
-                body.history.base[k] + stride * net_.given[at(place)]);
-  }
+template <int D>
+void BlockStep::fetch_deformation(Body& body) {
+  team_->for_blocks(static_cast<std::int64_t>(net_.blocks.size()), [&](std::int64_t b, int worker) {
+    const Block& block = net_.blocks[at(b)];
+    Scratch& s = scratch_[at(worker)];
+    const BlockArrays a = arrays_of<D>(block, s);
+    kernels_->gradient[D - 2](a, 0, block.own, s.h.data());
+    for (std::int32_t l = 0; l < block.own; ++l) {
+      const std::int64_t i = net_.given[at(block.first + l)];
+      const Mat<D> h = load_tensor<D>(s.h.data(), l);
+      store_tensor(h, body.point.h, i);
+      body.point.ratio[i] = determinant(plus_identity(h));
+    }
+  });
 }
 
 void BlockStep::fetch_stress(Body& body) {
-  team_->for_blocks(static_cast<std::int64_t>(net_.blocks.size()), [&](std::int64_t b) {
-    const Block& block = net_.blocks[at(b)];
-    for (std::int64_t p = block.first; p < block.first + block.own; ++p) {
-      fetch_history(body, p);
-      if (P_.empty()) continue;
+  for_blocks(*team_, body.particles, [&](std::int64_t, std::int64_t first, std::int64_t last) {
+    for (std::int64_t p = first; p < last; ++p) {
       const std::int64_t i = net_.given[at(p)];
+      for (std::size_t k = 0; k < history_.size(); ++k) {
+        const std::int64_t stride = body.history.stride[k];
+        std::copy_n(history_[k].begin() + stride * p, stride, body.history.base[k] + stride * i);
+      }
+      if (P_.empty()) continue;
       std::copy_n(P_.begin() + kTensor * p, kTensor, body.point.p + kTensor * i);
       body.point.energy[i] = energy_[at(p)];
     }
@@ -228,79 +249,96 @@ void BlockStep::fetch_stress(Body& body) {
   if (P_.empty()) parts_.points.observe(body, *team_);
 }
 
+namespace {
+
+// f(name) of every field of a group but the law's history.
+template <class F>
+void for_names(int group, const F& f) {
+  static constexpr std::array<std::initializer_list<const char*>, 4> kNames = {
+      {{"displacement", "velocity", "position"},
+       {"acceleration", "internal_force", "viscous_force"},
+       {"displacement_gradient", "volume_ratio"},
+       {"first_piola_kirchhoff_stress", "strain_energy_density"}}};
+  for (const char* name : kNames[at(group)]) f(name);
+}
+
+}  // namespace
+
+template <class F>
+void BlockStep::for_fields(const Body& body, int group, const F& f) {
+  for_names(group, f);
+  if (group == kStress)
+    for (const FieldSpec& variable : body.law->history) f(variable.name);
+}
+
+void BlockStep::make_current(Body& body, int group) {
+  asked_[at(group)] = true;
+  if (current_[at(group)]) return;
+  if (!held_[at(group)]) {
+    for_fields(body, group, [&](const char* name) { body.fields.restore(name); });
+    body.point_into_fields();
+    held_[at(group)] = true;
+  }
+  const bool plane = body.dimension() == 2;
+  switch (group) {
+    case kMotion:
+      plane ? fetch_motion<2>(body) : fetch_motion<3>(body);
+      break;
+    case kForces:
+      plane ? fetch_forces<2>(body) : fetch_forces<3>(body);
+      break;
+    case kDeformation:
+      plane ? fetch_deformation<2>(body) : fetch_deformation<3>(body);
+      break;
+    default:
+      make_current(body, kDeformation);
+      fetch_stress(body);
+  }
+  current_[at(group)] = true;
+}
+
+// A stored field needs its group; a derived one any of them, unless it belongs to the formulation.
 void BlockStep::fetch(Body& body, std::string_view field) {
   if (!loaded_) return;
-  const bool plane = body.dimension() == 2;
-  const auto is = [field](std::initializer_list<std::string_view> names) {
-    return std::find(names.begin(), names.end(), field) != names.end();
-  };
-  // Fields that the step does not change, and those that follow it at once.
-  if (is({"reference_position", "mass", "volume", "external_force", "ledger", "damage",
-          "simplex_particles", "simplex_alive", "bond_ends", "critical_strain", "bond_status",
-          "bond_length", "bond_vector", "bond_weight"}))
+  const Field* f = body.fields.find(field);
+  if (f == nullptr ||
+      (f->spec.lifetime == CLEAVE_LIFETIME_DERIVED && std::string_view(f->owner) == "core")) {
+    for (int group = 0; group < kGroups; ++group) make_current(body, group);
     return;
-  const bool all = !is({"displacement", "position", "velocity", "acceleration", "internal_force",
-                        "viscous_force", "displacement_gradient", "volume_ratio"});
-  const bool forces = all || is({"acceleration", "internal_force", "viscous_force"});
-  const bool deformation = all || is({"displacement_gradient", "volume_ratio"});
-  const auto make = [&](Group group, const auto& work) {
-    if (current_[group]) return;
-    work();
-    current_[group] = true;
-  };
-  make(kMotion, [&] { plane ? fetch_motion<2>(body) : fetch_motion<3>(body); });
-  if (forces) make(kForces, [&] { plane ? fetch_forces<2>(body) : fetch_forces<3>(body); });
-  if (deformation) {
-    make(kDeformation, [&] { parts_.points.gradients(body, parts_.network.gradient(), *team_); });
   }
-  if (all) make(kStress, [&] { fetch_stress(body); });
+  for (int group = 0; group < kGroups; ++group)
+    for_fields(body, group, [&](const char* name) {
+      if (field == name) make_current(body, group);
+    });
 }
 
-// Motion and history of the particles, motion of their neighbours.
-void BlockStep::bring(Body& body, std::span<const std::int32_t> particles) {
-  const Network& network = parts_.network;
-  const PointArrays& pt = body.point;
-  const int D = body.dimension();
-  const auto motion_of = [&](std::int32_t i) {
-    const std::int64_t p = net_.place[at(i)];
-    for (int k = 0; k < D; ++k) {
-      const std::int64_t c = kVector * i + k;
-      pt.u[c] = u_[at(D * p + k)];
-      pt.x[c] = pt.X[c] + pt.u[c];
-      pt.v[c] = v_[at(D * p + k)];
-    }
-  };
-  for (const std::int32_t i : particles) {
-    motion_of(i);
-    fetch_history(body, net_.place[at(i)]);
-    for (std::int32_t h = network.row_begin[at(i)]; h < network.row_begin[at(i) + 1]; ++h)
-      motion_of(network.neighbour[at(h)]);
+// What the host did not ask for in a whole step has no memory in the next.
+void BlockStep::release_unasked(Body& body) {
+  bool any = false;
+  for (int group = 0; group < kGroups; ++group) {
+    if (asked_[at(group)] || !held_[at(group)]) continue;
+    for_fields(body, group, [&](const char* name) { body.fields.release(name); });
+    held_[at(group)] = false;
+    any = true;
   }
+  if (any) body.point_into_fields();
+  asked_.fill(false);
 }
 
-void BlockStep::rebuilt(Body& body, std::span<const std::int32_t> particles) {
-  redo_.clear();
-  for (const std::int32_t i : particles) {
-    const std::int32_t place = net_.place[at(i)], block = net_.block_of(place);
-    volume_[at(place)] = body.point.volume[i];
-    row_changed_[at(place)] = 1;
-    if (in_redo_[at(block)] == 0) redo_.push_back(block);
-    in_redo_[at(block)] = 1;
-  }
-  for (const std::int32_t block : redo_) in_redo_[at(block)] = 0;
-  rebuild_blocks(body, row_changed_.data());
-  for (const std::int32_t i : particles) row_changed_[at(net_.place[at(i)])] = 0;
+ParticleState BlockStep::state(const Body& body) {
+  ParticleState s{u_.data(), v_.data(), body.dimension() == 2 ? kStride<2> : kStride<3>,
+                  net_.place.data(), body.history};
+  for (std::size_t k = 0; k < history_.size(); ++k) s.history.base[k] = history_[k].data();
+  return s;
 }
 
 std::int64_t BlockStep::bytes() const {
   std::int64_t sum = net_.bytes();
-  for (const auto* a : {&X_, &u_, &v_, &f_, &fv_, &fe_, &inverse_mass_, &volume_, &P_, &energy_,
-                        &slots_, &viscous_slots_})
-    sum += bytes_of(*a);
+  for (const auto* a : {&u_, &v_, &f_, &fv_, &fe_, &slots_, &viscous_slots_}) sum += bytes_of(*a);
+  for (const auto* a : {&X_, &inverse_mass_, &volume_, &P_, &energy_}) sum += bytes_of(*a);
   for (const auto& h : history_) sum += bytes_of(h);
   for (const Scratch& s : scratch_)
-    for (const auto* a : {&s.u, &s.x, &s.v, &s.X, &s.rows, &s.h, &s.P, &s.f, &s.fv, &s.J})
-      sum += bytes_of(*a);
+    for (const auto* a : {&s.u, &s.x, &s.v, &s.X, &s.rows, &s.h, &s.P, &s.J}) sum += bytes_of(*a);
   return sum + static_cast<std::int64_t>(is_driven_.capacity());
 }
 

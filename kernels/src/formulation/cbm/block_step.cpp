@@ -57,7 +57,7 @@ double BlockStep::advance_driven(Body& body, double dt, PowerSums& powers) {
   double reaction = 0;
   for (const Driven& d : driven_) {
     for (int k = 0; k < D; ++k) {
-      const std::int64_t c = D * static_cast<std::int64_t>(d.place) + k;
+      const std::int64_t c = kStride<D> * static_cast<std::int64_t>(d.place) + k;
       const PrescribedDof* dof = d.dof[at(k)] < 0 ? nullptr : &body.prescribed[at(d.dof[at(k)])];
       const double a = dof != nullptr ? d.a[at(k)] : total(c) * inverse_mass_[at(d.place)];
       const bool exact = dof != nullptr && dof->motion == CLEAVE_MOTION_EXACT;
@@ -86,43 +86,27 @@ void BlockStep::book(Body& body, double dt, PowerSums powers, double reaction) c
   entry[ledger::kReaction] += half * reaction;
 }
 
-// Vectors of own and foreign particles beside each other.
+// Positions and velocities of own and foreign particles beside each other.
 template <int D>
-void BlockStep::gather(const Block& block, Scratch& s) const {
-  const auto copy = [&](const std::vector<double>& from, AlignedReals& to) {
-    const double* next = from.data() + D * static_cast<std::int64_t>(block.first);
-    double* out = to.data();
-    for (std::int32_t l = 0; l < block.own; ++l, next += D, out += kStride<D>)
-      for (int k = 0; k < D; ++k) out[k] = next[k];
-    for (const std::int32_t q : block.foreign) {
-      const double* foreign = from.data() + D * static_cast<std::int64_t>(q);
-      for (int k = 0; k < D; ++k) out[k] = foreign[k];
-      out += kStride<D>;
+void BlockStep::gather_viscous(const Block& block, Scratch& s) const {
+  const auto particle = [&](std::int64_t p, std::int64_t l) {
+    for (int k = 0; k < D; ++k) {
+      const double X = X_[at(D * p + k)];
+      const auto to = at(kStride<D> * l + k), from = at(kStride<D> * p + k);
+      s.x[to] = X + u_[from];
+      s.v[to] = v_[from];
+      if (parts_.local_lengths) s.X[to] = X;
     }
   };
-  copy(u_, s.u);
-  const std::int64_t locals = kStride<D> * static_cast<std::int64_t>(block.locals());
-  std::fill_n(s.rows.begin(), D * kStride<D> * static_cast<std::int64_t>(block.own), 0.0);
-  std::fill_n(s.f.begin(), locals, 0.0);
-  if (parts_.viscosity == nullptr) return;
-  if (parts_.viscosity->lengths != nullptr) copy(X_, s.X);
-  const auto position = [&](std::int64_t place, double* x) {
-    for (int k = 0; k < D; ++k) x[k] = X_[at(D * place + k)] + u_[at(D * place + k)];
-  };
-  double* x = s.x.data();
-  for (std::int32_t l = 0; l < block.own; ++l, x += kStride<D>) position(block.first + l, x);
-  for (const std::int32_t q : block.foreign) {
-    position(q, x);
-    x += kStride<D>;
-  }
-  copy(v_, s.v);
-  std::fill_n(s.fv.begin(), locals, 0.0);
+  for (std::int32_t l = 0; l < block.own; ++l) particle(block.first + l, l);
+  std::int64_t l = block.own;
+  for (const std::int32_t q : block.foreign) particle(q, l++);
 }
 
 namespace {
 
 BlockRows rows_of(const BlockBonds& b) {
-  return {b.begin.data(), b.end.data(), b.zeta.data(), b.weight.data()};
+  return {b.begin.data(), b.count.data(), b.end.data(), b.zeta.data(), b.weight.data()};
 }
 
 // det F of points, not below zero.
@@ -136,23 +120,38 @@ void clipped_ratio(const double* h, std::int64_t count, double* ratio) {
 
 }  // namespace
 
+// What the gradient needs: displacements, sums at zero.
+template <int D>
+BlockArrays BlockStep::arrays_of(const Block& block, Scratch& s) const {
+  double* to = s.u.data();
+  for (const std::int32_t q : block.foreign) {
+    std::copy_n(u_.data() + kStride<D> * static_cast<std::int64_t>(q), kStride<D>, to);
+    to += kStride<D>;
+  }
+  std::fill_n(s.rows.begin(), D * kStride<D> * static_cast<std::int64_t>(block.own), 0.0);
+  BlockArrays a{};
+  a.own = block.own;
+  a.twins = rows_of(block.twins);
+  a.halves = rows_of(block.halves);
+  a.u = u_.data() + kStride<D> * static_cast<std::int64_t>(block.first);
+  a.foreign_u = s.u.data();
+  a.rows = s.rows.data();
+  a.volume = volume_.data() + block.first;
+  return a;
+}
+
+template BlockArrays BlockStep::arrays_of<2>(const Block&, Scratch&) const;
+template BlockArrays BlockStep::arrays_of<3>(const Block&, Scratch&) const;
+
 template <int D>
 void BlockStep::form_block(const Body& body, std::int32_t b, const Clock& clock, Scratch& s) {
   const Block& block = net_.blocks[at(b)];
   BlockResult& result = results_[at(b)];
   result = {};
-  gather<D>(block, s);
+  BlockArrays a = arrays_of<D>(block, s);
   const bool stored = !P_.empty();
-  BlockArrays a{};
-  a.own = block.own;
-  a.twins = rows_of(block.twins);
-  a.halves = rows_of(block.halves);
-  a.u = s.u.data();
-  a.rows = s.rows.data();
-  a.volume = volume_.data() + block.first;
   double* P = stored ? P_.data() + kTensor * block.first : s.P.data();
   a.P = P;
-  a.f = s.f.data();
   StressArrays points;
   points.h = s.h.data();
   points.dt = clock.dt;
@@ -176,57 +175,51 @@ void BlockStep::form_block(const Body& body, std::int32_t b, const Clock& clock,
     result.shock += r.viscous;
     if (r.first_failed >= 0 && result.failed < 0) result.failed = i + r.first_failed;
   }
+  form_forces<D>(block, a, s);
+}
+
+// Forces of own particles, and what the block adds to foreign ones.
+template <int D>
+void BlockStep::form_forces(const Block& block, BlockArrays a, Scratch& s) {
+  const auto own = [&](AlignedReals& all) {
+    double* first = all.data() + kStride<D> * static_cast<std::int64_t>(block.first);
+    std::fill_n(first, kStride<D> * static_cast<std::int64_t>(block.own), 0.0);
+    return first;
+  };
+  const auto foreign = [&](AlignedReals& slots) {
+    double* first = slots.data() + kStride<D> * block.slot;
+    std::fill_n(first, static_cast<std::size_t>(kStride<D>) * block.foreign.size(), 0.0);
+    return first;
+  };
+  a.f = own(f_);
+  a.foreign_f = foreign(slots_);
   kernels_->force[D - 2](a);
   if (parts_.viscosity == nullptr) return;
+  gather_viscous<D>(block, s);
   a.x = s.x.data();
   a.v = s.v.data();
+  a.X = parts_.local_lengths ? s.X.data() : nullptr;
   a.J = s.J.data();
-  a.fv = s.fv.data();
-  a.scale = s.scale.data();
-  a.first = s.first.data();
+  a.fv = own(fv_);
+  a.foreign_fv = foreign(viscous_slots_);
   a.coefficient = parts_.viscosity->beta_rho_c;
   a.length = parts_.viscosity->length;
-  if (parts_.viscosity->lengths != nullptr) a.X = s.X.data();
   kernels_->viscous_force[D - 2](a);
 }
 
-// Forces of own particles to their places, of foreign ones to the slots; inner particles are finished.
+// To particles at the face of a block, what the blocks around add, in their order.
 template <int D>
-void BlockStep::scatter(std::int32_t b, Scratch& s, double half) {
-  const Block& block = net_.blocks[at(b)];
-  const auto copy = [&](const AlignedReals& from, std::vector<double>& to,
-                        std::vector<double>& slots) {
-    const double* next = from.data();
-    double* out = to.data() + D * static_cast<std::int64_t>(block.first);
-    for (std::int32_t l = 0; l < block.own; ++l, next += kStride<D>, out += D)
-      for (int k = 0; k < D; ++k) out[k] = next[k];
-    out = slots.data() + D * block.slot;
-    for (std::size_t l = 0; l < block.foreign.size(); ++l, next += kStride<D>, out += D)
-      for (int k = 0; k < D; ++k) out[k] = next[k];
+void BlockStep::add_slots(const Block& block) {
+  const auto add = [](const AlignedReals& slots, std::int64_t slot, AlignedReals& f,
+                      std::int64_t p) {
+    for (int c = 0; c < D; ++c) f[at(kStride<D> * p + c)] += slots[at(kStride<D> * slot + c)];
   };
-  copy(s.f, f_, slots_);
-  if (!fv_.empty()) copy(s.fv, fv_, viscous_slots_);
-  results_[at(b)].powers =
-      kernels_->kick[D - 2](motion(), block.first + block.surface, block.first + block.own, half);
-}
-
-template <int D>
-void BlockStep::finish_surface(std::int32_t b, double half) {
-  const Block& block = net_.blocks[at(b)];
   for (std::int64_t p = block.first; p < block.first + block.surface; ++p) {
     for (std::int32_t k = net_.incoming_begin[at(p)]; k < net_.incoming_begin[at(p) + 1]; ++k) {
-      const std::int64_t slot = net_.incoming[at(k)];
-      for (int c = 0; c < D; ++c) f_[at(D * p + c)] += slots_[at(D * slot + c)];
-      if (fv_.empty()) continue;
-      for (int c = 0; c < D; ++c) fv_[at(D * p + c)] += viscous_slots_[at(D * slot + c)];
+      add(slots_, net_.incoming[at(k)], f_, p);
+      if (!fv_.empty()) add(viscous_slots_, net_.incoming[at(k)], fv_, p);
     }
   }
-  const PowerSums surface =
-      kernels_->kick[D - 2](motion(), block.first, block.first + block.surface, half);
-  PowerSums& powers = results_[at(b)].powers;
-  powers.internal += surface.internal;
-  powers.viscous += surface.viscous;
-  powers.external += surface.external;
 }
 
 template <int D>
@@ -234,7 +227,7 @@ double BlockStep::finish_driven(const Body& body, double half, PowerSums& powers
   double reaction = 0;
   for (Driven& d : driven_) {
     for (int k = 0; k < D; ++k) {
-      const std::int64_t c = D * static_cast<std::int64_t>(d.place) + k;
+      const std::int64_t c = kStride<D> * static_cast<std::int64_t>(d.place) + k;
       const PrescribedDof* dof = d.dof[at(k)] < 0 ? nullptr : &body.prescribed[at(d.dof[at(k)])];
       const double a = dof != nullptr ? dof->acceleration : total(c) * inverse_mass_[at(d.place)];
       double& v = v_[at(c)];
@@ -249,31 +242,59 @@ double BlockStep::finish_driven(const Body& body, double half, PowerSums& powers
   return reaction;
 }
 
+// Stress and forces, and the second half of the kick if asked for: inner particles of a block at once, the
+// others when all blocks have given.
 template <int D>
-void BlockStep::update_in(Body& body, const Clock& clock) {
-  const auto& broken = search_.find<D>(net_, parts_.network, X_.data(), u_.data(), *team_);
-  parts_.fracture.step(body, parts_.network, parts_.stabilisation, clock, broken, *this);
+void BlockStep::update_forces(Body& body, const Clock& clock, double half, bool kick) {
   const auto blocks = static_cast<std::int64_t>(net_.blocks.size());
-  const double half = 0.5 * clock.dt;
+  const auto kick_range = [&](std::int64_t b, std::int64_t first, std::int64_t last) {
+    if (!kick) return;
+    const PowerSums p = kernels_->kick[D - 2](motion(), first, last, half);
+    PowerSums& powers = results_[at(b)].powers;
+    powers.internal += p.internal;
+    powers.viscous += p.viscous;
+    powers.external += p.external;
+  };
   team_->for_blocks(blocks, [&](std::int64_t b, int worker) {
-    Scratch& s = scratch_[at(worker)];
-    form_block<D>(body, static_cast<std::int32_t>(b), clock, s);
-    scatter<D>(static_cast<std::int32_t>(b), s, half);
+    const Block& block = net_.blocks[at(b)];
+    form_block<D>(body, static_cast<std::int32_t>(b), clock, scratch_[at(worker)]);
+    kick_range(b, block.first + block.surface, block.first + block.own);
   });
   double plastic = 0, shock = 0;
   for (const BlockResult& r : results_) plastic += r.plastic, shock += r.shock;
   body.point.ledger[ledger::kPlastic] += plastic;
   body.point.ledger[ledger::kShock] += shock;
   refuse_failed(body);
-  team_->for_blocks(blocks,
-                    [&](std::int64_t b) { finish_surface<D>(static_cast<std::int32_t>(b), half); });
+  team_->for_blocks(blocks, [&](std::int64_t b) {
+    const Block& block = net_.blocks[at(b)];
+    add_slots<D>(block);
+    kick_range(b, block.first, block.first + block.surface);
+  });
+}
+
+template <int D>
+void BlockStep::update_in(Body& body, const Clock& clock) {
+  const auto& broken = search_.find<D>(net_, parts_.network, X_.data(), u_.data(), *team_);
+  rebuild_rows(body, parts_.fracture.step(body, parts_.network, parts_.stabilisation, clock, broken,
+                                          state(body)));
+  const double half = 0.5 * clock.dt;
+  update_forces<D>(body, clock, half, true);
   PowerSums driven{};
   const double reaction = finish_driven<D>(body, half, driven);
   book(body, clock.dt, driven, reaction);
 }
 
+template <int D>
+void BlockStep::start_in(Body& body, const Clock& clock) {
+  update_forces<D>(body, clock, 0, false);
+  for (Driven& d : driven_)
+    for (int k = 0; k < D; ++k)
+      if (d.dof[at(k)] >= 0) d.a[at(k)] = body.prescribed[at(d.dof[at(k)])].acceleration;
+}
+
 void BlockStep::advance(Body& body, double dt, ThreadTeam& team) {
   prepare(body, team);
+  release_unasked(body);
   const bool plane = body.dimension() == 2;
   current_.fill(false);
   plane ? advance_in<2>(body, dt) : advance_in<3>(body, dt);
@@ -288,6 +309,12 @@ void BlockStep::update(Body& body, const Clock& clock, ThreadTeam& team) {
   plane ? update_in<2>(body, clock) : update_in<3>(body, clock);
   watched_ = watch_;
   current_.fill(false);
+}
+
+void BlockStep::start(Body& body, const Clock& clock, ThreadTeam& team) {
+  prepare(body, team);
+  current_.fill(false);
+  body.dimension() == 2 ? start_in<2>(body, clock) : start_in<3>(body, clock);
 }
 
 // The smallest eigenvalue of C = I + 2 E is not below 1 - |2 E|.

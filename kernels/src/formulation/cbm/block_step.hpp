@@ -24,7 +24,7 @@
 
 namespace cleave::cbm {
 
-class BlockStep final : public ResidentStep, private StateKeeper {
+class BlockStep final : public ResidentStep {
  public:
   struct Parts {
     Network& network;
@@ -32,14 +32,16 @@ class BlockStep final : public ResidentStep, private StateKeeper {
     Fracture& fracture;
     StressPoints& points;
     const BondRate<std::int32_t>* viscosity;  // nullptr: none
+    bool local_lengths;                       // of the viscosity: each bond's own
   };
   explicit BlockStep(const Parts& parts) : parts_(parts) {}
 
   // False if the mesh does not fit into blocks.
-  bool setup(const Body& body);
+  bool setup(const Body& body, ThreadTeam& team);
   std::int64_t bytes() const;
 
   void prepare(Body& body, ThreadTeam& team) override;
+  void start(Body& body, const Clock& clock, ThreadTeam& team) override;
   void advance(Body& body, double dt, ThreadTeam& team) override;
   void update(Body& body, const Clock& clock, ThreadTeam& team) override;
   void fetch(Body& body, std::string_view field) override;
@@ -60,8 +62,7 @@ class BlockStep final : public ResidentStep, private StateKeeper {
     std::int64_t failed = -1;  // first local particle whose law has no answer
   };
   struct Scratch {
-    AlignedReals u, x, v, X, rows, h, P, f, fv, J, scale;
-    std::vector<std::uint16_t> first;
+    AlignedReals u, x, v, X, rows, h, P, J;  // u: of foreign particles
     BlockNetwork::Workspace rows_of_block;
   };
   // Groups of fields that are brought up to date together.
@@ -72,7 +73,8 @@ class BlockStep final : public ResidentStep, private StateKeeper {
   template <int D>
   void load_external(const Body& body);
   void load_driven(const Body& body);
-  void rebuild_blocks(const Body& body, const char* changed_rows);
+  void rebuild_all_rows();
+  void rebuild_rows(const Body& body, std::span<const std::int32_t> particles);
   template <int D>
   void advance_in(Body& body, double dt);
   template <int D>
@@ -80,13 +82,19 @@ class BlockStep final : public ResidentStep, private StateKeeper {
   template <int D>
   void update_in(Body& body, const Clock& clock);
   template <int D>
-  void gather(const Block& block, Scratch& s) const;
+  void start_in(Body& body, const Clock& clock);
+  template <int D>
+  void update_forces(Body& body, const Clock& clock, double half, bool kick);
+  template <int D>
+  BlockArrays arrays_of(const Block& block, Scratch& s) const;
+  template <int D>
+  void gather_viscous(const Block& block, Scratch& s) const;
   template <int D>
   void form_block(const Body& body, std::int32_t b, const Clock& clock, Scratch& s);
   template <int D>
-  void scatter(std::int32_t b, Scratch& s, double half);
+  void form_forces(const Block& block, BlockArrays a, Scratch& s);
   template <int D>
-  void finish_surface(std::int32_t b, double half);
+  void add_slots(const Block& block);
   template <int D>
   double finish_driven(const Body& body, double half, PowerSums& powers);
   MotionArrays motion();
@@ -100,40 +108,43 @@ class BlockStep final : public ResidentStep, private StateKeeper {
   void fetch_motion(Body& body);
   template <int D>
   void fetch_forces(Body& body);
-  void fetch_history(Body& body, std::int64_t place) const;
+  template <int D>
+  void fetch_deformation(Body& body);
   void fetch_stress(Body& body);
-
-  void bring(Body& body, std::span<const std::int32_t> particles) override;
-  void rebuilt(Body& body, std::span<const std::int32_t> particles) override;
+  // f(name) of every field of a group.
+  template <class F>
+  void for_fields(const Body& body, int group, const F& f);
+  void make_current(Body& body, int group);
+  void release_unasked(Body& body);
+  ParticleState state(const Body& body);
 
   Parts parts_;
   const BlockKernels* kernels_ = nullptr;
   BlockNetwork net_;
   BlockSearch search_;
-  ThreadTeam alone_;
-  ThreadTeam* team_ = &alone_;  // the model's, from the first step on
+  ThreadTeam* team_ = nullptr;  // the model's
 
-  bool loaded_ = false, external_loaded_ = false;
+  bool loaded_ = false, external_loaded_ = false, rows_loaded_ = false;
   bool watch_ = false, watched_ = false;  // the strain: asked for; known of the last update
   std::array<bool, kGroups> current_{};   // the fields of the group hold the present state
+  std::array<bool, kGroups> held_{};      // have memory
+  std::array<bool, kGroups> asked_{};     // were asked for since the last step
   bool has_external_ = false;
 
-  // By place; vectors have as many components as the body has dimensions.
-  std::vector<double> X_, u_, v_, f_, fv_, fe_;  // (D,n)
-  std::vector<double> inverse_mass_, volume_;    // (n) [kg-1], [m3]
-  std::vector<std::vector<double>> history_;     // of every variable: (components,n)
+  // By place.
+  AlignedReals u_, v_, f_, fv_, fe_;           // (kStride,n)
+  std::vector<double> X_;                      // (D,n); of fracture or viscosity only
+  std::vector<double> inverse_mass_, volume_;  // (n) [kg-1], [m3]
+  std::vector<std::vector<double>> history_;   // of every variable: (components,n)
   std::vector<double> P_,
       energy_;                   // (9,n), (n): of laws whose stress is not a function of the state
   std::vector<char> is_driven_;  // (n)
   std::vector<Driven> driven_;
-  std::vector<std::int32_t> driven_entry_;     // (n) into driven_; -1: free
-  std::vector<double> slots_, viscous_slots_;  // (D,slots)
+  std::vector<std::int32_t> driven_entry_;  // (n) into driven_; -1: free
+  AlignedReals slots_, viscous_slots_;      // (kStride,slots)
   std::vector<BlockResult> results_;
   std::vector<VelocityBox> boxes_;
-  std::vector<Scratch> scratch_;    // one a worker
-  std::vector<std::int32_t> redo_;  // blocks to be rebuilt
-  std::vector<char> in_redo_;       // (blocks)
-  std::vector<char> row_changed_;   // (n)
+  std::vector<Scratch> scratch_;  // one a worker
 };
 
 }  // namespace cleave::cbm

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "formulation/common/simplices.hpp"
@@ -49,14 +50,17 @@ void fill_reverse(std::int64_t particles, const Offset* row_begin, const Index* 
 // Row i from its live simplices, always summed in ascending order of simplices, so that a rebuilt
 // row has the bits of one built at once:                                            [CBM 1, 4-9]
 //   Omega_i = sum_L Omega_L/n,   zeta_ip = sum_L (Omega_L/n) g_p^L
-// [in] alive (m): 0 deleted; nullptr: all live
-template <int D, class Index, class Offset>
-void rebuild_row(const double* X, const Index* simplices, int stride, const std::int32_t* alive,
-                 const Incidence& incidence, const Offset* row_begin, const Index* neighbour,
-                 std::int64_t i, double* zeta, double* volume) {
-  for (Offset b = row_begin[i]; b < row_begin[i + 1]; ++b)
-    for (int k = 0; k < kVector; ++k) zeta[kVector * b + k] = 0;
-  volume[i] = 0;
+// [in]  alive (m): 0 deleted; nullptr: all live      neighbours: of i, ascending
+// [out] zeta (3,neighbours) [m2]      back (3,neighbours): zeta_pi as in row p; nullptr: not asked for
+// Returns Omega_i [m3].
+template <int D, class Index>
+double sum_row(const double* X, const Index* simplices, int stride, const std::int32_t* alive,
+               const Incidence& incidence, std::span<const Index> neighbours, std::int64_t i,
+               double* zeta, double* back) {
+  const auto size = static_cast<std::size_t>(kVector) * neighbours.size();
+  std::fill_n(zeta, size, 0.0);
+  if (back != nullptr) std::fill_n(back, size, 0.0);
+  double volume = 0;
   for (auto k = incidence.begin[static_cast<std::size_t>(i)];
        k < incidence.begin[static_cast<std::size_t>(i + 1)]; ++k) {
     const std::int64_t s = incidence.simplex[static_cast<std::size_t>(k)];
@@ -64,13 +68,18 @@ void rebuild_row(const double* X, const Index* simplices, int stride, const std:
     const Index* nodes = simplices + stride * s;
     const SimplexGeometry<D> geometry = simplex_geometry<D>(X, nodes);
     const double share = geometry.volume / (D + 1);
-    volume[i] += share;
+    volume += share;
+    const int own = static_cast<int>(std::find(nodes, nodes + D, static_cast<Index>(i)) - nodes);
     for (int a = 0; a <= D; ++a) {
-      if (nodes[a] == static_cast<Index>(i)) continue;
-      const Offset b = find_half_bond(row_begin, neighbour, i, nodes[a]);
-      for (int c = 0; c < D; ++c) zeta[kVector * b + c] += share * geometry.gradient[a][c];
+      if (a == own) continue;
+      const auto b = kVector * (std::lower_bound(neighbours.begin(), neighbours.end(), nodes[a]) -
+                                neighbours.begin());
+      for (int c = 0; c < D; ++c) zeta[b + c] += share * geometry.gradient[a][c];
+      if (back == nullptr) continue;
+      for (int c = 0; c < D; ++c) back[b + c] += share * geometry.gradient[own][c];
     }
   }
+  return volume;
 }
 
 }  // namespace cleave::cbm

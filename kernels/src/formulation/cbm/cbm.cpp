@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/gradient_operator.hpp"
 #include "formulation/common/unused_groups.hpp"
@@ -27,30 +28,45 @@ double wave_speed(const Body& body) {
   return with_law(body.material, [](const auto& law) { return law.wave_speed(); });
 }
 
-// 2/sqrt(k max_i D_i) with D_i = (1/Omega_i) sum_j |zeta_ji|^2/Omega_j, zeta_ii = - sum_p zeta_ip:
-// the diagonal of M^-1 K over c0^2 for an isotropic stiffness.
+// Of the intact body: D_i = (1/Omega_i) sum_j |zeta_ji|^2/Omega_j, zeta_ii = - sum_p zeta_ip: the diagonal
+// of M^-1 K over c0^2 for an isotropic stiffness; and the shortest bond.
+struct Extremes {
+  double stiffness = 0, length = std::numeric_limits<double>::infinity();
+};
+
 template <int D>
-double stiffness_length(const Network& network, std::int64_t particles) {
-  double largest = 0;
-  for (std::int64_t i = 0; i < particles; ++i) {
-    Vec<D> own;
-    double sum = 0;
-    for (std::int32_t b = network.row_begin[static_cast<std::size_t>(i)];
-         b < network.row_begin[static_cast<std::size_t>(i + 1)]; ++b) {
-      const auto half = static_cast<std::size_t>(b);
-      const Vec<D> zeta = load_vector<D>(network.zeta, b);
-      const Vec<D> back = load_vector<D>(network.zeta, network.reverse[half]);
-      sum += dot(back, back) / network.volume[network.neighbour[half]];
-      for (int k = 0; k < D; ++k) own[k] += zeta[k];
+Extremes extremes(const Network& network, std::int64_t particles, ThreadTeam& team) {
+  std::vector<Extremes> partial(static_cast<std::size_t>(block_count(particles)));
+  const auto row_size = static_cast<std::size_t>(kVector * network.longest_row());
+  for_blocks(team, particles, [&](std::int64_t block, std::int64_t first, std::int64_t last) {
+    std::vector<double> zeta(row_size), back(row_size);
+    Extremes& e = partial[static_cast<std::size_t>(block)];
+    for (std::int64_t i = first; i < last; ++i) {
+      const double volume = network.form_row<D>(i, zeta.data(), back.data());
+      Vec<D> own;
+      double sum = 0;
+      std::int64_t b = 0;
+      for (const std::int32_t p : network.neighbours(i)) {
+        const Vec<D> other = load_vector<D>(back.data(), b);
+        sum += dot(other, other) / network.volume[p];
+        for (int k = 0; k < D; ++k) own[k] += load_vector<D>(zeta.data(), b)[k];
+        if (p > i) e.length = std::fmin(e.length, network.length(i, p));
+        ++b;
+      }
+      e.stiffness = std::fmax(e.stiffness, (sum + dot(own, own) / volume) / volume);
     }
-    largest = std::fmax(largest, (sum + dot(own, own) / network.volume[i]) / network.volume[i]);
+  });
+  Extremes all;
+  for (const Extremes& e : partial) {
+    all.stiffness = std::fmax(all.stiffness, e.stiffness);
+    all.length = std::fmin(all.length, e.length);
   }
-  return 2 / std::sqrt(kCoupling * largest);
+  return all;
 }
 
 }  // namespace
 
-void ContinuumBondMethod::setup(Body& body) {
+void ContinuumBondMethod::setup(Body& body, ThreadTeam& team) {
   refuse_group(body, "kernel", "it belongs to formulations tlsph and nosb");
   refuse_group(body, "hourglass", "it belongs to tlsph and nosb; here it is group stabilisation");
   if (body.simplex_nodes != body.dimension() + 1) {
@@ -58,36 +74,51 @@ void ContinuumBondMethod::setup(Body& body) {
                 text(body.label(), ": cbm takes simplices of ", body.dimension() + 1,
                      " particles, not of ", body.simplex_nodes, "; use a mesh of first order"));
   }
-  network_.build(body);
+  network_.build(body, team);
   const double density = with_law(body.material, [](const auto& law) { return law.density(); });
   for (std::int64_t i = 0; i < body.particles; ++i)
     body.point.mass[i] = density * network_.volume[i];
-  shortest_ = *std::min_element(network_.length, network_.length + network_.bonds);
-  stable_length_ =
-      std::fmin(shortest_, body.dimension() == 2 ? stiffness_length<2>(network_, body.particles)
-                                                 : stiffness_length<3>(network_, body.particles));
+  const Extremes intact = body.dimension() == 2 ? extremes<2>(network_, body.particles, team)
+                                                : extremes<3>(network_, body.particles, team);
+  shortest_ = intact.length;
+  stable_length_ = std::fmin(shortest_, 2 / std::sqrt(kCoupling * intact.stiffness));
   setup_viscosity(body);
   stabilisation_.setup(body, network_);
   fracture_.setup(body, network_);
   points_.setup(body);
-  operator_ = network_.gradient();
-  setup_blocks(body);
+  setup_blocks(body, team);
 }
 
-void ContinuumBondMethod::setup_blocks(const Body& body) {
+void ContinuumBondMethod::setup_blocks(const Body& body, ThreadTeam& team) {
   blocks_.reset();
   const bool in_block = !stabilisation_.active() &&
                         (viscosity_ == ViscosityForm::none || viscosity_ == ViscosityForm::frozen);
-  if (body.by_rows || !in_block) return;
-  blocks_ = std::make_unique<BlockStep>(
-      BlockStep::Parts{network_, stabilisation_, fracture_, points_,
-                       viscosity_ == ViscosityForm::none ? nullptr : &bond_rate_});
-  if (!blocks_->setup(body)) blocks_.reset();
+  if (!body.by_rows && in_block) {
+    blocks_ = std::make_unique<BlockStep>(BlockStep::Parts{
+        network_, stabilisation_, fracture_, points_,
+        viscosity_ == ViscosityForm::none ? nullptr : &bond_rate_, local_lengths_});
+    if (!blocks_->setup(body, team)) blocks_.reset();
+  }
+  if (blocks_ == nullptr) keep_rows(team);
+}
+
+void ContinuumBondMethod::keep_rows(ThreadTeam& team) {
+  network_.keep_rows(team);
+  operator_ = network_.gradient();
+  if (!local_lengths_) return;
+  bond_rate_.lengths = network_.lengths();
+  bond_rate_.bond_of_half = network_.bond_of_half();
+}
+
+const GradientOperator* ContinuumBondMethod::gradient_operator(ThreadTeam& team) {
+  keep_rows(team);
+  return &operator_;
 }
 
 void ContinuumBondMethod::setup_viscosity(const Body& body) {
   const ParameterSet& options = body.group("viscosity");
   bond_rate_ = {};
+  local_lengths_ = false;
   viscosity_ = options.any_given() ? static_cast<ViscosityForm>(options.choice("form"))
                                    : ViscosityForm::none;
   beta_ = options.real("beta");
@@ -98,10 +129,8 @@ void ContinuumBondMethod::setup_viscosity(const Body& body) {
   }
   const double density = with_law(body.material, [](const auto& law) { return law.density(); });
   bond_rate_.beta_rho_c = beta_ * density * wave_speed(body);
-  if (options.choice("length_mode") == static_cast<int>(LengthMode::local)) {
-    bond_rate_.lengths = network_.length;
-    bond_rate_.bond_of_half = network_.bond_of_half.data();
-  } else {
+  local_lengths_ = options.choice("length_mode") == static_cast<int>(LengthMode::local);
+  if (!local_lengths_) {
     bond_rate_.length = options.real("length");
     if (bond_rate_.length == 0) {
       throw Error(
@@ -113,8 +142,8 @@ void ContinuumBondMethod::setup_viscosity(const Body& body) {
 }
 
 void ContinuumBondMethod::rebuild(Body& body, ThreadTeam& team) {
-  network_.rebuild(body, team);
-  points_.gradients(body, operator_, team);
+  network_.rebuild(team);
+  if (network_.keeps_rows()) points_.gradients(body, operator_, team);
 }
 
 double ContinuumBondMethod::stable_step(const Body& body) const {
@@ -133,7 +162,10 @@ void ContinuumBondMethod::break_bonds(Body& body, const Clock& clock, ThreadTeam
 }
 
 void ContinuumBondMethod::precrack(Body& body, std::span<const std::int64_t> pairs) {
-  if (blocks_ != nullptr) blocks_->changed({});
+  if (blocks_ != nullptr) {
+    blocks_->fetch(body, {});
+    blocks_->changed({});
+  }
   fracture_.precrack(body, network_, pairs);
 }
 
@@ -144,7 +176,7 @@ void ContinuumBondMethod::deform(Body& body, const Clock& clock, ThreadTeam& tea
 template <int D>
 void ContinuumBondMethod::forces_in(Body& body, ThreadTeam& team) {
   const PointArrays& pt = body.point;
-  const ViscousArrays viscous{network_.weight, pt.x, pt.v, pt.h, pt.ratio, pt.viscous};
+  const ViscousArrays viscous{network_.weights(), pt.x, pt.v, pt.h, pt.ratio, pt.viscous};
   const double* stress =
       stabilisation_.active() ? stabilisation_.bond_stress<D>(body, network_, team) : body.point.p;
   for_blocks(team, body.particles, [&](std::int64_t, std::int64_t first, std::int64_t last) {
@@ -187,14 +219,30 @@ void ContinuumBondMethod::count(const Body& body, cleave_counts& counts) const {
 
 bool ContinuumBondMethod::derive(const Body& body, std::string_view field, std::int64_t first,
                                  std::int64_t last, double* values) const {
-  if (field != "damage") return false;
-  const double density = with_law(body.material, [](const auto& law) { return law.density(); });
-  for (std::int64_t i = first; i < last; ++i) {
-    // Rounding of mass = rho Omega(0) must not show as damage of an intact particle.
-    const double intact = body.point.mass[i] / density;
-    const double damage = 1 - network_.volume[i] / intact;
-    values[i - first] = std::fabs(damage) < 1e-14 ? 0.0 : damage;
+  if (field == "bond_length") {
+    network_.copy_lengths(first, last, values);
+  } else if (field == "bond_vector") {
+    network_.copy_vectors(first, last, values);
+  } else if (field == "bond_weight") {
+    network_.copy_weights(first, last, values);
+  } else if (field == "damage") {
+    const double density = with_law(body.material, [](const auto& law) { return law.density(); });
+    for (std::int64_t i = first; i < last; ++i) {
+      // Rounding of mass = rho Omega(0) must not show as damage of an intact particle.
+      const double intact = body.point.mass[i] / density;
+      const double damage = 1 - network_.volume[i] / intact;
+      values[i - first] = std::fabs(damage) < 1e-14 ? 0.0 : damage;
+    }
+  } else {
+    return false;
   }
+  return true;
+}
+
+bool ContinuumBondMethod::derive(const Body&, std::string_view field, std::int64_t first,
+                                 std::int64_t last, std::int64_t* values) const {
+  if (field != "bond_ends") return false;
+  network_.copy_ends(first, last, values);
   return true;
 }
 

@@ -18,10 +18,10 @@ namespace cleave::cbm {
 class ContinuumBondMethod final : public Formulation {
  public:
   const char* name() const override { return "cbm"; }
-  void setup(Body& body) override;
+  void setup(Body& body, ThreadTeam& team) override;
   void rebuild(Body& body, ThreadTeam& team) override;
   double stable_step(const Body& body) const override;
-  const GradientOperator* gradient_operator() const override { return &operator_; }
+  const GradientOperator* gradient_operator(ThreadTeam& team) override;
   ResidentStep* resident() override { return blocks_.get(); }
   std::string static_obstacle(const Body& body) const override;
 
@@ -35,20 +35,24 @@ class ContinuumBondMethod final : public Formulation {
   void count(const Body& body, cleave_counts& counts) const override;
   bool derive(const Body& body, std::string_view field, std::int64_t first, std::int64_t last,
               double* values) const override;
+  bool derive(const Body& body, std::string_view field, std::int64_t first, std::int64_t last,
+              std::int64_t* values) const override;
   std::int64_t bytes() const override;
 
  private:
   void setup_viscosity(const Body& body);
-  void setup_blocks(const Body& body);
+  void setup_blocks(const Body& body, ThreadTeam& team);
+  void keep_rows(ThreadTeam& team);
   template <int D>
   void forces_in(Body& body, ThreadTeam& team);
 
   Network network_;
-  GradientOperator operator_;
+  GradientOperator operator_;  // of kept rows
   StressPoints points_;
   Fracture fracture_;
   Stabilisation stabilisation_;
   ViscosityForm viscosity_ = ViscosityForm::none;
+  bool local_lengths_ = false;  // of the viscosity: each bond's own
   BondRate<std::int32_t> bond_rate_;
   std::unique_ptr<BlockStep> blocks_;  // nullptr: the step goes by rows
   double beta_ = 0;

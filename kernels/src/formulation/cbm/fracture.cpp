@@ -1,5 +1,6 @@
 #include "formulation/cbm/fracture.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -13,9 +14,37 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 // First size of the lists of one deletion; they grow beyond it only in a step that breaks more.
 constexpr std::int64_t kReserve = 65536;
 
-double elongation(const Body& body, const Network& network, std::int32_t bond) {
-  const Vec<3> d = difference<3>(body.point.x, network.ends[2 * bond], network.ends[2 * bond + 1]);
-  return (std::sqrt(dot(d, d)) - network.length[bond]) / network.length[bond];
+// Bond strain of the pair; positions as the fields have them.
+double elongation(const Network& network, const ParticleState& state, std::int32_t i,
+                  std::int32_t p) {
+  const auto position = [&](std::int64_t particle, int k) {
+    return network.X[kVector * particle + k] + state.u[state.stride * state.place(particle) + k];
+  };
+  double square = 0;
+  for (int k = 0; k < network.dimension; ++k) {
+    const double d = position(p, k) - position(i, k);
+    square += d * d;
+  }
+  const double length = network.length(i, p);
+  return (std::sqrt(square) - length) / length;
+}
+
+ParticleState state_of_fields(const Body& body) {
+  return {body.point.u, body.point.v, kVector, nullptr, body.history};
+}
+
+std::size_t at(std::int64_t k) { return static_cast<std::size_t>(k); }
+
+// Ascending, each once.
+void sort_unique(std::vector<std::int32_t>& list) {
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
+// Position in an ascending list, or -1.
+std::int64_t find_place(const std::vector<std::int32_t>& list, std::int32_t value) {
+  const auto found = std::lower_bound(list.begin(), list.end(), value);
+  return found != list.end() && *found == value ? found - list.begin() : -1;
 }
 
 // Which particles lose no bond between two of them: 1 exempt zone, 2 prescribed in every direction.
@@ -42,18 +71,13 @@ void Fracture::setup(const Body& body, const Network& network) {
   active_ = options.any_given() &&
             options.choice("criterion") == static_cast<int>(Criterion::bond_strain);
   set_critical_strains(body, network);
-  block_has_broken_.assign(static_cast<std::size_t>(block_count(network.bonds)), 0);
-  killed_place_.assign(static_cast<std::size_t>(network.simplices), -1);
-  affected_mark_.assign(static_cast<std::size_t>(network.simplices), 0);
-  touched_place_.assign(static_cast<std::size_t>(body.particles), -1);
+  block_has_broken_.assign(at(block_count(body.particles)), 0);
+  zeta_.assign(kVector * at(network.longest_row()), 0.0);
   if (!active_) return;
-  for (auto* list : {&broken_, &killed_, &touched_, &affected_, &killers_}) {
-    list->reserve(static_cast<std::size_t>(std::min(network.bonds, kReserve)));
-  }
-  for (auto* list : {&killed_volume_, &release_, &bond_release_}) {
-    list->reserve(static_cast<std::size_t>(std::min(network.bonds, kReserve)));
-  }
-  cuts_.reserve(static_cast<std::size_t>(std::min(network.bonds, kReserve)));
+  const std::size_t reserve = at(std::min(network.bonds, kReserve));
+  for (auto* list : {&broken_, &killed_, &touched_, &killers_}) list->reserve(reserve);
+  for (auto* list : {&killed_volume_, &release_, &bond_release_}) list->reserve(reserve);
+  cuts_.reserve(reserve);
 }
 
 // eps_crit given, or sqrt(2 G_f / (E l)).                                                [CBM 32]
@@ -86,75 +110,73 @@ void Fracture::set_critical_strains(const Body& body, const Network& network) co
                      " has no Young's modulus; give critical_strain"));
   }
   const std::vector<char> shield = protection(body);
-  for (std::int64_t b = 0; b < network.bonds; ++b) {
-    const char common = shield[static_cast<std::size_t>(network.ends[2 * b])] &
-                        shield[static_cast<std::size_t>(network.ends[2 * b + 1])];
-    if (!active_ || common != 0) {
-      critical[b] = kNever;
-    } else {
-      critical[b] =
-          given > 0 ? given : std::sqrt(2 * Gf / (youngs * (local ? network.length[b] : length)));
-    }
-  }
-}
-
-bool Fracture::find_broken(const Body& body, const Network& network, ThreadTeam& team) {
-  const double* critical = network.critical;
-  for_blocks(team, network.bonds, [&](std::int64_t block, std::int64_t first, std::int64_t last) {
-    bool any = false;
-    for (std::int64_t b = first; b < last; ++b) {
-      const Vec<3> d = difference<3>(body.point.x, network.ends[2 * b], network.ends[2 * b + 1]);
-      const double limit = (1 + critical[b]) * network.length[b];
-      any |= network.status[b] == kIntact && dot(d, d) >= limit * limit;
-    }
-    block_has_broken_[static_cast<std::size_t>(block)] = any ? 1 : 0;
+  network.for_bonds(0, body.particles, [&](std::int32_t bond, std::int32_t i, std::int32_t p) {
+    const bool never = !active_ || (shield[at(i)] & shield[at(p)]) != 0;
+    critical[bond] = never ? kNever
+                     : given > 0
+                         ? given
+                         : std::sqrt(2 * Gf / (youngs * (local ? network.length(i, p) : length)));
   });
-  for (std::int64_t block = 0; block < block_count(network.bonds); ++block) {
-    if (block_has_broken_[static_cast<std::size_t>(block)] == 0) continue;
-    for (std::int64_t b = block * kBlock; b < std::min(network.bonds, (block + 1) * kBlock); ++b) {
-      const Vec<3> d = difference<3>(body.point.x, network.ends[2 * b], network.ends[2 * b + 1]);
-      const double limit = (1 + critical[b]) * network.length[b];
-      if (network.status[b] == kIntact && dot(d, d) >= limit * limit)
-        broken_.push_back(static_cast<std::int32_t>(b));
-    }
-  }
-  return !broken_.empty();
 }
 
-// From broken_: the simplices that go, the particles that lose one, and all simplices around those.
+void Fracture::find_broken(const Body& body, const Network& network, ThreadTeam& team) {
+  broken_.clear();
+  const auto meets = [&](std::int32_t bond, std::int32_t i, std::int32_t p) {
+    const Vec<3> d = difference<3>(body.point.x, i, p);
+    const double limit = (1 + network.critical[bond]) * network.lengths()[bond];
+    return network.status[bond] == kIntact && dot(d, d) >= limit * limit;
+  };
+  for_blocks(team, body.particles, [&](std::int64_t block, std::int64_t first, std::int64_t last) {
+    bool any = false;
+    network.for_bonds(first, last, [&](std::int32_t bond, std::int32_t i, std::int32_t p) {
+      any |= meets(bond, i, p);
+    });
+    block_has_broken_[at(block)] = any ? 1 : 0;
+  });
+  for (std::int64_t block = 0; block < block_count(body.particles); ++block) {
+    if (block_has_broken_[at(block)] == 0) continue;
+    network.for_bonds(block * kBlock, std::min(body.particles, (block + 1) * kBlock),
+                      [&](std::int32_t bond, std::int32_t i, std::int32_t p) {
+                        if (meets(bond, i, p)) broken_.push_back(bond);
+                      });
+  }
+}
+
+// From broken_: the simplices that go, and the particles that lose one.
 void Fracture::collect(const Body& body, const Network& network) {
   const int corner_count = body.dimension() + 1;
+  cuts_.clear();
+  killed_.clear();
   for (std::size_t place = 0; place < broken_.size(); ++place) {
-    network.for_live_simplices(broken_[place], corner_count, [&](std::int32_t s) {
-      std::int32_t& at = killed_place_[static_cast<std::size_t>(s)];
-      if (at < 0) {
-        at = static_cast<std::int32_t>(killed_.size());
-        killed_.push_back(s);
-        killers_.push_back(0);
-      }
-      ++killers_[static_cast<std::size_t>(at)];
-      cuts_.push_back({static_cast<std::int32_t>(place), at});
+    const auto [i, p] = network.ends(broken_[place]);
+    network.for_live_simplices(i, p, corner_count, [&](std::int32_t s) {
+      killed_.push_back(s);
+      cuts_.push_back({static_cast<std::int32_t>(place), s});
     });
   }
+  sort_unique(killed_);
+  killers_.assign(killed_.size(), 0);
+  for (const Cut& cut : cuts_) ++killers_[at(find_place(killed_, cut.simplex))];
+  touched_.clear();
   for (const std::int32_t s : killed_) {
-    for (int a = 0; a < corner_count; ++a) {
-      const std::int32_t i = network.corners[Network::kStride * s + a];
-      std::int32_t& at = touched_place_[static_cast<std::size_t>(i)];
-      if (at >= 0) continue;
-      at = static_cast<std::int32_t>(touched_.size());
-      touched_.push_back(i);
-      for (auto k = network.incidence.begin[static_cast<std::size_t>(i)];
-           k < network.incidence.begin[static_cast<std::size_t>(i) + 1]; ++k) {
-        const std::int32_t around = network.incidence.simplex[static_cast<std::size_t>(k)];
-        if (affected_mark_[static_cast<std::size_t>(around)] != 0) continue;
-        affected_mark_[static_cast<std::size_t>(around)] = 1;
-        affected_.push_back(around);
-      }
-    }
+    const std::int32_t* corners = network.corners + Network::kStride * s;
+    touched_.insert(touched_.end(), corners, corners + corner_count);
   }
+  sort_unique(touched_);
   release_.assign(touched_.size(), 0.0);
   killed_volume_.assign(touched_.size(), 0.0);
   bond_release_.assign(broken_.size(), 0.0);
+}
+
+// All simplices around the touched particles.
+void Fracture::collect_around(const Network& network) {
+  affected_.clear();
+  for (const std::int32_t i : touched_) {
+    const auto* around = network.incidence.simplex.data();
+    affected_.insert(affected_.end(), around + network.incidence.begin[at(i)],
+                     around + network.incidence.begin[at(i) + 1]);
+  }
+  sort_unique(affected_);
 }
 
 // Adds sign * (Omega psi - 1/2 P : sum_p dx_ip (x) zeta_ip) of every touched particle, with the
@@ -163,22 +185,32 @@ void Fracture::collect(const Body& body, const Network& network) {
 // History is read, not changed.
 template <int D>
 void Fracture::add_release(const Body& body, const Network& network,
-                           const Stabilisation& stabilisation, const Clock& clock, double sign) {
-  const GradientOperator g = network.gradient();
+                           const Stabilisation& stabilisation, const Clock& clock,
+                           const ParticleState& state, double sign) {
   const StressArrays arrays = stress_arrays(body, clock);
   const double share = sign * stabilisation.particle_share();
   for (std::size_t place = 0; place < touched_.size(); ++place) {
-    const std::int64_t i = touched_[place];
-    const double volume = network.volume[i];
+    const std::int64_t i = touched_[place], own = state.place(i);
+    const double volume = network.form_row<D>(i, zeta_.data(), nullptr);
     if (!(volume > 0)) continue;
-    Mat<D> h = row_gradient<D>(g, body.point.u, i);
+    const std::span<const std::int32_t> row = network.neighbours(i);
+    const auto sum_dyads = [&](const double* w) {
+      Mat<D> sum;
+      for (std::size_t b = 0; b < row.size(); ++b) {
+        const double *to = w + state.stride * state.place(row[b]), *from = w + state.stride * own;
+        Vec<D> d;
+        for (int k = 0; k < D; ++k) d[k] = to[k] - from[k];
+        add_dyad(sum, d, load_vector<D>(zeta_.data(), static_cast<std::int64_t>(b)));
+      }
+      return sum;
+    };
+    Mat<D> h = sum_dyads(state.u);
     for (int r = 0; r < D; ++r)
       for (int c = 0; c < D; ++c) h(r, c) /= volume;
     const auto response =
-        trial_response<D>(body.material, body.history, h, arrays.increment<D>(i), i);
-    release_[place] +=
-        share * (volume * (response.energy + response.plastic + response.viscous) -
-                 0.5 * clock.dt * contract(response.stress, row_gradient<D>(g, body.point.v, i)));
+        trial_response<D>(body.material, state.history, h, arrays.increment<D>(i), own);
+    release_[place] += share * (volume * (response.energy + response.plastic + response.viscous) -
+                                0.5 * clock.dt * contract(response.stress, sum_dyads(state.v)));
   }
   if (stabilisation.active()) add_simplex_release<D>(body, network, stabilisation, clock.dt, sign);
 }
@@ -204,7 +236,7 @@ void Fracture::add_simplex_release(const Body& body, const Network& network,
           mean(r, c) += scale * h(r, c);
           mean_rate(r, c) += deviation ? scale * rate(r, c) : 0.0;
         }
-      sharers += touched_place_[static_cast<std::size_t>(corners[a])] >= 0 ? 1 : 0;
+      sharers += find_place(touched_, corners[a]) >= 0 ? 1 : 0;
     }
     Mat<D> stress;
     Mat<D> rate = simplex_gradient(geometry, corners, body.point.v);
@@ -214,16 +246,15 @@ void Fracture::add_simplex_release(const Body& body, const Network& network,
       for (int c = 0; c < D; ++c) rate(r, c) -= mean_rate(r, c);
     const double booked = sign * (energy - 0.5 * dt * contract(stress, rate)) / sharers;
     for (int a = 0; a <= D; ++a) {
-      const std::int32_t place = touched_place_[static_cast<std::size_t>(corners[a])];
-      if (place >= 0) release_[static_cast<std::size_t>(place)] += booked;
+      const std::int64_t place = find_place(touched_, corners[a]);
+      if (place >= 0) release_[at(place)] += booked;
     }
   }
 }
 
-template <int D>
 void Fracture::delete_collected(Network& network) const {
   for (const std::int32_t s : killed_) network.alive[s] = 0;
-  for (const std::int32_t i : touched_) network.rebuild_row_of<D>(i);
+  network.rebuild(touched_);
 }
 
 // A bond whose simplices are all gone, without having met the criterion itself, is inert.
@@ -234,9 +265,10 @@ void Fracture::mark_inert(const Body& body, const Network& network) const {
     for (int a = 0; a < corner_count; ++a) {
       for (int b = 0; b < a; ++b) {
         const std::int32_t bond = network.find_bond(corners[a], corners[b]);
-        if (network.status[bond] == kIntact && !network.on_live_simplex(bond, corner_count)) {
-          network.status[bond] = kInert;
-        }
+        bool live = false;
+        network.for_live_simplices(corners[a], corners[b], corner_count,
+                                   [&](std::int32_t) { live = true; });
+        if (network.status[bond] == kIntact && !live) network.status[bond] = kInert;
       }
     }
   }
@@ -252,28 +284,27 @@ void Fracture::share_release(const Body& body, const Network& network) {
                              : simplex_geometry<3>(network.X, corners).volume;
   };
   const auto place_of = [&](std::int32_t s, int corner) {
-    return static_cast<std::size_t>(
-        touched_place_[static_cast<std::size_t>(network.corners[Network::kStride * s + corner])]);
+    return at(find_place(touched_, network.corners[Network::kStride * s + corner]));
   };
   for (const std::int32_t s : killed_) {
     for (int a = 0; a < corner_count; ++a) killed_volume_[place_of(s, a)] += volume_of(s);
   }
   for (const Cut& cut : cuts_) {
-    const std::int32_t s = killed_[static_cast<std::size_t>(cut.simplex)];
+    const std::int32_t s = cut.simplex;
     double sum = 0;
     for (int a = 0; a < corner_count; ++a) {
       const std::size_t place = place_of(s, a);
       sum += release_[place] * (volume_of(s) / killed_volume_[place]);
     }
-    bond_release_[static_cast<std::size_t>(cut.bond)] +=
-        sum / killers_[static_cast<std::size_t>(cut.simplex)];
+    bond_release_[at(cut.bond)] += sum / killers_[at(find_place(killed_, s))];
   }
 }
 
-void Fracture::record_events(Body& body, const Network& network, const Clock& clock) const {
+void Fracture::record_events(Body& body, const Network& network, const Clock& clock,
+                             const ParticleState& state) const {
   for (std::size_t place = 0; place < broken_.size(); ++place) {
     const std::int32_t bond = broken_[place];
-    const std::int32_t i = network.ends[2 * bond], p = network.ends[2 * bond + 1];
+    const auto [i, p] = network.ends(bond);
     cleave_event e{};
     e.size = sizeof(cleave_event);
     e.step = clock.step;
@@ -283,58 +314,51 @@ void Fracture::record_events(Body& body, const Network& network, const Clock& cl
     for (int k = 0; k < 3; ++k) {
       e.midpoint[k] = 0.5 * (network.X[kVector * i + k] + network.X[kVector * p + k]);
     }
-    e.criterion = elongation(body, network, bond);
+    e.criterion = elongation(network, state, i, p);
     e.limit = network.critical[bond];
     e.released = bond_release_[place];
     body.events.push_back(e);
   }
 }
 
-void Fracture::reset() {
-  for (const std::int32_t s : killed_) killed_place_[static_cast<std::size_t>(s)] = -1;
-  for (const std::int32_t s : affected_) affected_mark_[static_cast<std::size_t>(s)] = 0;
-  for (const std::int32_t i : touched_) touched_place_[static_cast<std::size_t>(i)] = -1;
-  for (auto* list : {&broken_, &killed_, &touched_, &affected_, &killers_}) list->clear();
-  cuts_.clear();
-}
-
 template <int D>
 void Fracture::break_bonds(Body& body, Network& network, const Stabilisation& stabilisation,
-                           const Clock& clock, StateKeeper* keeper) {
+                           const Clock& clock, const ParticleState& state) {
   collect(body, network);
-  if (keeper != nullptr) keeper->bring(body, touched_);
-  add_release<D>(body, network, stabilisation, clock, +1);
-  delete_collected<D>(network);
-  add_release<D>(body, network, stabilisation, clock, -1);
+  if (stabilisation.active()) collect_around(network);
+  add_release<D>(body, network, stabilisation, clock, state, +1);
+  delete_collected(network);
+  add_release<D>(body, network, stabilisation, clock, state, -1);
   for (const std::int32_t bond : broken_) network.status[bond] = kBroken;
   mark_inert(body, network);
   for (const double e : release_) body.point.ledger[ledger::kFracture] += e;
   share_release(body, network);
-  record_events(body, network, clock);
-  if (keeper != nullptr) keeper->rebuilt(body, touched_);
-  reset();
+  record_events(body, network, clock, state);
+}
+
+std::span<const std::int32_t> Fracture::step(Body& body, Network& network,
+                                             const Stabilisation& stabilisation, const Clock& clock,
+                                             std::span<const std::int32_t> broken,
+                                             const ParticleState& state) {
+  if (broken.empty()) return {};
+  if (broken.data() != broken_.data()) broken_.assign(broken.begin(), broken.end());
+  body.dimension() == 2 ? break_bonds<2>(body, network, stabilisation, clock, state)
+                        : break_bonds<3>(body, network, stabilisation, clock, state);
+  return touched_;
 }
 
 void Fracture::step(Body& body, Network& network, const Stabilisation& stabilisation,
                     const Clock& clock, ThreadTeam& team) {
-  if (!active_ || !find_broken(body, network, team)) return;
-  body.dimension() == 2 ? break_bonds<2>(body, network, stabilisation, clock, nullptr)
-                        : break_bonds<3>(body, network, stabilisation, clock, nullptr);
-}
-
-void Fracture::step(Body& body, Network& network, const Stabilisation& stabilisation,
-                    const Clock& clock, std::span<const std::int32_t> broken, StateKeeper& keeper) {
-  if (broken.empty()) return;
-  broken_.assign(broken.begin(), broken.end());
-  body.dimension() == 2 ? break_bonds<2>(body, network, stabilisation, clock, &keeper)
-                        : break_bonds<3>(body, network, stabilisation, clock, &keeper);
+  if (!active_) return;
+  find_broken(body, network, team);
+  step(body, network, stabilisation, clock, broken_, state_of_fields(body));
 }
 
 void Fracture::precrack(Body& body, Network& network, std::span<const std::int64_t> pairs) {
+  broken_.clear();
   for (std::size_t k = 0; k + 1 < pairs.size(); k += 2) {
     const std::int32_t bond = network.find_bond(pairs[k], pairs[k + 1]);
     if (bond < 0) {
-      reset();  // a refused list changes nothing
       throw Error(
           CLEAVE_BAD_ARGUMENT,
           text(body.label(), ": particles ", body.number(pairs[k]), " and ",
@@ -343,14 +367,9 @@ void Fracture::precrack(Body& body, Network& network, std::span<const std::int64
     broken_.push_back(bond);
   }
   collect(body, network);
-  if (body.dimension() == 2) {
-    delete_collected<2>(network);
-  } else {
-    delete_collected<3>(network);
-  }
+  delete_collected(network);
   for (const std::int32_t bond : broken_) network.status[bond] = kInert;
   mark_inert(body, network);
-  reset();
 }
 
 }  // namespace cleave::cbm

@@ -14,13 +14,14 @@
 
 namespace cleave::cbm {
 
-// Who keeps the state of the particles elsewhere: is told before the fields of particles and their
-// neighbours are read, and after their rows were rebuilt.
-class StateKeeper {
- public:
-  virtual ~StateKeeper() = default;
-  virtual void bring(Body& body, std::span<const std::int32_t> particles) = 0;
-  virtual void rebuilt(Body& body, std::span<const std::int32_t> particles) = 0;
+// Where displacement, velocity and history of a particle stand.
+struct ParticleState {
+  const double *u, *v;  // component k of particle i at stride * place(i) + k [m], [m s-1]
+  std::int64_t stride;
+  const std::int32_t* places;  // nullptr: the place is the number
+  HistoryArrays history;       // by place
+
+  std::int64_t place(std::int64_t i) const { return places == nullptr ? i : places[i]; }
 };
 
 class Fracture {
@@ -31,49 +32,50 @@ class Fracture {
   void setup(const Body& body, const Network& network);
   void step(Body& body, Network& network, const Stabilisation& stabilisation, const Clock& clock,
             ThreadTeam& team);
-  // The same for bonds found elsewhere, ascending, with the state in `keeper`.
-  void step(Body& body, Network& network, const Stabilisation& stabilisation, const Clock& clock,
-            std::span<const std::int32_t> broken, StateKeeper& keeper);
+  // The same for bonds found elsewhere, ascending. Returns the particles that lost a simplex, ascending;
+  // valid until the next call.
+  std::span<const std::int32_t> step(Body& body, Network& network,
+                                     const Stabilisation& stabilisation, const Clock& clock,
+                                     std::span<const std::int32_t> broken,
+                                     const ParticleState& state);
   // Deletes the simplices of the bonds without criterion, energy or event.
   void precrack(Body& body, Network& network, std::span<const std::int64_t> pairs);
 
  private:
   void set_critical_strains(const Body& body, const Network& network) const;
-  bool find_broken(const Body& body, const Network& network, ThreadTeam& team);
+  void find_broken(const Body& body, const Network& network, ThreadTeam& team);
   void collect(const Body& body, const Network& network);
+  void collect_around(const Network& network);
   template <int D>
   void add_release(const Body& body, const Network& network, const Stabilisation& stabilisation,
-                   const Clock& clock, double sign);
+                   const Clock& clock, const ParticleState& state, double sign);
   template <int D>
   void add_simplex_release(const Body& body, const Network& network,
                            const Stabilisation& stabilisation, double dt, double sign);
-  template <int D>
   void delete_collected(Network& network) const;
   void mark_inert(const Body& body, const Network& network) const;
   template <int D>
   void break_bonds(Body& body, Network& network, const Stabilisation& stabilisation,
-                   const Clock& clock, StateKeeper* keeper);
+                   const Clock& clock, const ParticleState& state);
   void share_release(const Body& body, const Network& network);
-  void record_events(Body& body, const Network& network, const Clock& clock) const;
-  void reset();
+  void record_events(Body& body, const Network& network, const Clock& clock,
+                     const ParticleState& state) const;
 
   bool active_ = false;
-  std::vector<char> block_has_broken_;  // per block of bonds
+  std::vector<char> block_has_broken_;  // per block of particles: a bond of theirs
 
-  // One deletion. Places are positions in the lists, -1 outside of a deletion.
+  // One deletion. Lists of bonds, simplices, particles, simplices are ascending; places are positions in
+  // them.
   struct Cut {
-    std::int32_t bond, simplex;  // places in broken_, killed_
+    std::int32_t bond, simplex;  // place in broken_; simplex
   };
-  std::vector<std::int32_t> broken_, killed_, touched_,
-      affected_;  // bonds, simplices, particles, simplices
+  std::vector<std::int32_t> broken_, killed_, touched_, affected_;
   std::vector<Cut> cuts_;
-  std::vector<std::int32_t> killers_;        // per killed simplex: bonds that cut it
-  std::vector<double> killed_volume_;        // per touched particle: volume of its killed simplices
-  std::vector<double> release_;              // per touched particle [J]
-  std::vector<double> bond_release_;         // per broken bond [J]
-  std::vector<std::int32_t> killed_place_;   // (m)
-  std::vector<std::int32_t> touched_place_;  // (n)
-  std::vector<char> affected_mark_;          // (m)
+  std::vector<std::int32_t> killers_;  // per killed simplex: bonds that cut it
+  std::vector<double> killed_volume_;  // per touched particle: volume of its killed simplices
+  std::vector<double> release_;        // per touched particle [J]
+  std::vector<double> bond_release_;   // per broken bond [J]
+  std::vector<double> zeta_;           // (3, longest row)
 };
 
 }  // namespace cleave::cbm

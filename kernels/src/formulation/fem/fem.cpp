@@ -137,7 +137,7 @@ double FiniteElements::highest_frequency_squared(const Body& body) const {
   return highest;
 }
 
-void FiniteElements::setup(Body& body) {
+void FiniteElements::setup(Body& body, ThreadTeam&) {
   for (const char* group : {"fracture", "viscosity", "stabilisation", "kernel", "hourglass"})
     refuse_group(body, group, "leave it out, or apply it to other bodies");
   elements_ = static_cast<std::int64_t>(body.given_simplices.size()) / body.simplex_nodes;

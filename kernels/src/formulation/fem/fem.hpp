@@ -15,10 +15,10 @@ class FiniteElements final : public Formulation {
  public:
   const char* name() const override { return "fem"; }
   std::int64_t integration_points(const Body& body) const override;
-  void setup(Body& body) override;
+  void setup(Body& body, ThreadTeam& team) override;
   void rebuild(Body& body, ThreadTeam& team) override;
   double stable_step(const Body& body) const override;
-  const GradientOperator* gradient_operator() const override { return &operator_; }
+  const GradientOperator* gradient_operator(ThreadTeam&) override { return &operator_; }
 
   void break_bonds(Body&, const Clock&, ThreadTeam&) override {}
   void deform(Body& body, const Clock& clock, ThreadTeam& team) override;

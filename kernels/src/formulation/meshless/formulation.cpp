@@ -21,7 +21,7 @@ double KernelMethod::kernel_radius(const Body& body) {
   return kernel ? radius : radius / tlsph::CubicSpline::kSupport;
 }
 
-void KernelMethod::setup(Body& body) {
+void KernelMethod::setup(Body& body, ThreadTeam&) {
   if (body.group("fracture").choice("criterion") != static_cast<int>(cbm::Criterion::none)) {
     refuse_group(body, "fracture", "bonds break in formulation cbm only");
   }

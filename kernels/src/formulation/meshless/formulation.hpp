@@ -17,10 +17,10 @@ namespace cleave::meshless {
 
 class KernelMethod : public Formulation {
  public:
-  void setup(Body& body) override;
+  void setup(Body& body, ThreadTeam& team) override;
   void rebuild(Body& body, ThreadTeam& team) override;
   double stable_step(const Body&) const override { return stable_step_; }
-  const GradientOperator* gradient_operator() const override { return &operator_; }
+  const GradientOperator* gradient_operator(ThreadTeam&) override { return &operator_; }
   std::string static_obstacle(const Body& body) const override;
 
   void break_bonds(Body&, const Clock&, ThreadTeam&) override {}

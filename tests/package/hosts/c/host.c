@@ -34,6 +34,7 @@ static void by_model(const double* X, const double* u, double* f) {
   spec.simplex_count = SIMPLICES;
   spec.simplices = kSimplices;
   OK(cleave_model_create(CLEAVE_ABI_VERSION, &model));
+  OK(cleave_model_set_order(model, CLEAVE_ORDER_ROWS));
   OK(cleave_body_add(model, &spec, &body));
   OK(cleave_body_set_real(model, body, "material", "rho", kProperties[0]));
   OK(cleave_body_set_real(model, body, "material", "E", kProperties[1]));

@@ -74,6 +74,7 @@ std::vector<double> by_model(const std::vector<double>& X) {
   spec.simplex_count = static_cast<std::int64_t>(kSimplices.size() / 4);
   spec.simplices = kSimplices.data();
   ok(cleave_model_create(CLEAVE_ABI_VERSION, &model));
+  ok(cleave_model_set_order(model, CLEAVE_ORDER_ROWS));
   ok(cleave_body_add(model, &spec, &body));
   ok(cleave_body_set_real(model, body, "material", "rho", kProperties[0]));
   ok(cleave_body_set_real(model, body, "material", "E", kProperties[1]));
