@@ -31,12 +31,6 @@ CLEAVE_INLINE void add_row(double* to, const Row<D>& r) {
   store_row<D>(load_row<D>(to) + r, to);
 }
 
-// Of the end of a bond.
-template <int D, class Real>
-CLEAVE_INLINE Real* vector_at(Real* own, Real* foreign, std::int64_t owned, std::int64_t end) {
-  return end < owned ? own + kStride<D> * end : foreign + kStride<D> * (end - owned);
-}
-
 // Numbers of bond vectors that are asked for early: one page, which the hardware does not look beyond.
 constexpr std::int64_t kAhead = 512;
 
@@ -48,7 +42,7 @@ void form_gradient(const BlockArrays& arrays, std::int32_t first, std::int32_t l
     Row<D> sum[D], ui[D];
     for (int r = 0; r < D; ++r) {
       sum[r] = load_row<D>(a.rows + kRows * i + kStride<D> * r);
-      ui[r] = Row<D>(a.u[kStride<D> * i + r]);
+      ui[r] = Row<D>(a.u[D * i + r]);
     }
     const std::int64_t twins = a.twins.begin[i];
     for (std::int64_t b = twins; b < twins + a.twins.count[i]; ++b) {
@@ -57,14 +51,14 @@ void form_gradient(const BlockArrays& arrays, std::int32_t first, std::int32_t l
       __builtin_prefetch(a.twins.zeta + D * b + kAhead);
       double* other = a.rows + kRows * p;
       for (int r = 0; r < D; ++r) {
-        const Row<D> part = (Row<D>(a.u[kStride<D> * p + r]) - ui[r]) * zeta;
+        const Row<D> part = (Row<D>(a.u[D * p + r]) - ui[r]) * zeta;
         sum[r] = sum[r] + part;
         add_row<D>(other + kStride<D> * r, part);
       }
     }
     const std::int64_t halves = a.halves.begin[i];
     for (std::int64_t b = halves; b < halves + a.halves.count[i]; ++b) {
-      const double* up = vector_at<D>(a.u, a.foreign_u, a.own, a.halves.end[b]);
+      const double* up = a.u + D * static_cast<std::int64_t>(a.halves.end[b]);
       const Row<D> zeta = load_row<D>(a.halves.zeta + D * b);
       for (int r = 0; r < D; ++r) sum[r] = sum[r] + (Row<D>(up[r]) - ui[r]) * zeta;
     }
@@ -102,7 +96,7 @@ void form_force(const BlockArrays& arrays) {
       Row<D> pull = zeta[0] * column[0];
       for (int c = 1; c < D; ++c) pull = pull + zeta[c] * column[c];
       sum = sum + pull;
-      double* to = vector_at<D>(a.f, a.foreign_f, a.own, a.halves.end[b]);
+      double* to = a.f + kStride<D> * a.halves.end[b];
       store_row<D>(load_row<D>(to) - pull, to);
     }
     store_row<D>(sum, a.f + kStride<D> * i);
@@ -180,7 +174,7 @@ CLEAVE_INLINE Row<D> viscous_row(const BlockArrays& a, const BlockRows& rows, st
     for (int g = 0; g < kGroup && b + g < last; ++g) {
       const Row<D> force = scale[g] * load_row<D>(x.row[g]);
       sum = sum + force;
-      double* to = vector_at<D>(a.fv, a.foreign_fv, a.own, p[g]);
+      double* to = a.fv + kStride<D> * p[g];
       store_row<D>(load_row<D>(to) - force, to);
     }
   }
@@ -216,58 +210,61 @@ double largest_square_strain(const double* h, std::int32_t count) {
   return largest;
 }
 
-// Powers, one chain of sums a direction.
+// One chain of sums a direction: they do not wait for each other.
 template <int D>
-struct Powers {
-  Row<D> internal = 0.0, viscous = 0.0, external = 0.0;
-  static double over_directions(const Row<D>& r) {
-    double s = lane(r, 0);
-    for (int k = 1; k < D; ++k) s += lane(r, k);
-    return s;
-  }
+struct Sums {
+  double internal[D] = {}, viscous[D] = {}, external[D] = {};
   PowerSums total() const {
-    return {over_directions(internal), over_directions(viscous), over_directions(external)};
+    PowerSums t{internal[0], viscous[0], external[0]};
+    for (int k = 1; k < D; ++k) {
+      t.internal += internal[k];
+      t.viscous += viscous[k];
+      t.external += external[k];
+    }
+    return t;
   }
 };
 
 // Without forces from outside 0 is added, not nothing: the sign of a zero must not depend on whether there
 // were some before a restart.
-template <int D, bool kViscous, bool kExternal>
-CLEAVE_INLINE Row<D> total_force(const MotionArrays& a, std::int64_t c) {
-  Row<D> f = load_row<D>(a.f + c);
-  if constexpr (kViscous) f = f + load_row<D>(a.fv + c);
-  if constexpr (kExternal) return f + load_row<D>(a.fe + c);
-  return f + Row<D>(0.0);
+template <bool kViscous, bool kExternal>
+CLEAVE_INLINE double total_force(const MotionArrays& a, std::int64_t c) {
+  double f = a.f[c];
+  if constexpr (kViscous) f = f + a.fv[c];
+  return f + (kExternal ? a.fe[c] : 0.0);
 }
 template <int D, bool kViscous, bool kExternal>
-CLEAVE_INLINE void add_power(const MotionArrays& a, std::int64_t c, const Row<D>& v, Powers<D>& s) {
-  s.internal = s.internal + load_row<D>(a.f + c) * v;
-  if constexpr (kViscous) s.viscous = s.viscous + load_row<D>(a.fv + c) * v;
-  if constexpr (kExternal) s.external = s.external + load_row<D>(a.fe + c) * v;
+CLEAVE_INLINE void add_power(const MotionArrays& a, std::int64_t c, int k, double v, Sums<D>& s) {
+  s.internal[k] += a.f[c] * v;
+  if constexpr (kViscous) s.viscous[k] += a.fv[c] * v;
+  if constexpr (kExternal) s.external[k] += a.fe[c] * v;
 }
 
 template <int D, bool kViscous, bool kExternal>
 PowerSums advance(const MotionArrays& arrays, std::int64_t first, std::int64_t last, double half,
                   double dt, VelocityBox& box) {
   const MotionArrays a = arrays;
-  Powers<D> sums;
-  Row<D> low = 0.0, high = 0.0;
-  if (first < last) low = high = load_row<D>(a.v + kStride<D> * first);
+  Sums<D> sums;
+  double low[D], high[D];
+  for (int k = 0; k < D; ++k) low[k] = high[k] = first < last ? a.v[D * first + k] : 0.0;
   for (std::int64_t p = first; p < last; ++p) {
-    const std::int64_t c = kStride<D> * p;
-    Row<D> v = load_row<D>(a.v + c);
-    if (a.driven[p] == 0) {
-      v = v + half * (total_force<D, kViscous, kExternal>(a, c) * a.inverse_mass[p]);
-      add_power<D, kViscous, kExternal>(a, c, v, sums);
-      store_row<D>(v, a.v + c);
-      store_row<D>(load_row<D>(a.u + c) + dt * v, a.u + c);
+    const double scale = a.driven[p] != 0 ? 0.0 : a.inverse_mass[p];
+    for (int k = 0; k < D; ++k) {
+      const std::int64_t c = D * p + k;
+      double v = a.v[c];
+      if (scale > 0) {
+        v = v + half * (total_force<kViscous, kExternal>(a, c) * scale);
+        add_power<D, kViscous, kExternal>(a, c, k, v, sums);
+        a.v[c] = v;
+        a.u[c] = a.u[c] + dt * v;
+      }
+      low[k] = v < low[k] ? v : low[k];
+      high[k] = v > high[k] ? v : high[k];
     }
-    low = smaller(v, low);
-    high = larger(v, high);
   }
   for (int k = 0; k < 3; ++k) {
-    box.low[k] = k < D ? lane(low, k) : 0.0;
-    box.high[k] = k < D ? lane(high, k) : 0.0;
+    box.low[k] = k < D ? low[k] : 0.0;
+    box.high[k] = k < D ? high[k] : 0.0;
   }
   return sums.total();
 }
@@ -275,14 +272,16 @@ PowerSums advance(const MotionArrays& arrays, std::int64_t first, std::int64_t l
 template <int D, bool kViscous, bool kExternal>
 PowerSums kick(const MotionArrays& arrays, std::int64_t first, std::int64_t last, double half) {
   const MotionArrays a = arrays;
-  Powers<D> sums;
+  Sums<D> sums;
   for (std::int64_t p = first; p < last; ++p) {
     if (a.driven[p] != 0) continue;
-    const std::int64_t c = kStride<D> * p;
-    const Row<D> v = load_row<D>(a.v + c);
-    add_power<D, kViscous, kExternal>(a, c, v, sums);
-    store_row<D>(v + half * (total_force<D, kViscous, kExternal>(a, c) * a.inverse_mass[p]),
-                 a.v + c);
+    const double scale = a.inverse_mass[p];
+    for (int k = 0; k < D; ++k) {
+      const std::int64_t c = D * p + k;
+      const double v = a.v[c];
+      add_power<D, kViscous, kExternal>(a, c, k, v, sums);
+      a.v[c] = v + half * (total_force<kViscous, kExternal>(a, c) * scale);
+    }
   }
   return sums.total();
 }

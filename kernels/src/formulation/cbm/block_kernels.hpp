@@ -18,28 +18,28 @@ struct BlockRows {
   const double* weight;  // (k) [m3], viscosity only
 };
 
-// Vectors stand at a distance of kStride: 4 doubles in space, 2 in the plane; the fourth is never read for
-// a result. P is (9,own) as everywhere. One more tensor's worth of memory follows P, so that its columns
-// may be loaded four at a time.
+// Vectors stand at a distance of D, or of kStride: 4 doubles in space, 2 in the plane; the fourth is never
+// read for a result. P is (9,own) as everywhere. One more tensor's worth of memory follows P, so that its
+// columns may be loaded four at a time. locals: own, then foreign particles.
 struct BlockArrays {
   std::int32_t own;
-  BlockRows twins, halves;      // twins have own ends only
-  const double *u, *foreign_u;  // (kStride, own), (kStride, foreign) displacement [m]
+  BlockRows twins, halves;  // twins have own ends only
+  const double* u;          // (D, locals) displacement [m]
   double* rows;          // (D kStride, own) sums of u_ip (x) zeta_ip, row by row; zero at the start
   const double* volume;  // (own) Omega [m3]
   const double* P;       // (9, own) [Pa]
-  double *f, *foreign_f;  // (kStride, own), (kStride, foreign) force [N]; zero at the start
+  double* f;             // (kStride, locals) force [N]; zero at the start
   // Viscosity only.
-  const double *x, *v;      // (kStride, own and foreign) position [m], velocity [m s-1]
-  const double* X;          // (kStride, own and foreign) reference position; NULL: constant length
-  const double* J;          // (own) det F, not below zero
-  double *fv, *foreign_fv;  // as f
-  double coefficient;       // beta rho0 c0 [Pa s m-1]
-  double length;            // l [m]
+  const double *x, *v;  // (kStride, locals) position [m], velocity [m s-1]
+  const double* X;      // (kStride, locals) reference position; NULL: constant length
+  const double* J;      // (own) det F, not below zero
+  double* fv;           // (kStride, locals) force [N]; zero at the start
+  double coefficient;   // beta rho0 c0 [Pa s m-1]
+  double length;        // l [m]
 };
 
-// Particles first <= p < last of the whole body; vectors stand at a distance of kStride. Pointers that may
-// be NULL say so.
+// Particles first <= p < last of the whole body; vectors stand at a distance of D. Pointers that may be NULL
+// say so.
 struct MotionArrays {
   double *u, *v;               // [m], [m s-1]
   const double* f;             // force of the bonds [N]
@@ -68,10 +68,10 @@ struct BlockKernels {
   void (*gradient[2])(const BlockArrays&, std::int32_t first, std::int32_t last, double* h);
   // Largest |2 E|^2 of `count` tensors H, with 2 E = H + H^T + H^T H and the Frobenius norm.
   double (*square_strain[2])(const double* h, std::int32_t count);
-  // f of own and foreign particles: P_i zeta_ip - P_p zeta_pi on i and the opposite on p; of a half the part
+  // f of all local particles: P_i zeta_ip - P_p zeta_pi on i and the opposite on p; of a half the part
   // of its own end.                                                                  [CBM 18, 19]
   void (*force[2])(const BlockArrays&);
-  // fv of own and foreign particles, form "frozen".                                        [CBM 21, 22]
+  // fv of all local particles, form "frozen".                                        [CBM 21, 22]
   void (*viscous_force[2])(const BlockArrays&);
 };
 

@@ -288,11 +288,10 @@ bool BlockNetwork::build(const Body& body, const Network& network, bool with_wei
   order_particles(body, network);
   team.for_blocks(static_cast<std::int64_t>(blocks.size()),
                   [&](std::int64_t b) { find_foreign(network, blocks[at(b)]); });
-  largest = most_own = most_foreign = 0;
+  largest = most_own = 0;
   for (const Block& block : blocks) {
     largest = std::max(largest, block.locals());
     most_own = std::max(most_own, block.own);
-    most_foreign = std::max(most_foreign, block.locals() - block.own);
   }
   if (largest > std::numeric_limits<std::uint16_t>::max()) return false;
   collect_incoming();

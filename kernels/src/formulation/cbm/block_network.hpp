@@ -74,8 +74,8 @@ class BlockNetwork {
   std::vector<std::int32_t> given;  // (n) number of the particle at a place
   std::vector<std::int32_t> place;  // (n) and the other way round
   std::vector<Block> blocks;
-  std::int32_t largest = 0;                     // locals() of the largest block
-  std::int32_t most_foreign = 0, most_own = 0;  // particles of a block
+  std::int32_t largest = 0;   // locals() of the largest block
+  std::int32_t most_own = 0;  // particles of a block
   // What a block adds to a foreign particle stands in the slot of the two. Slots of every surface
   // particle, in the order of blocks: incoming[incoming_begin[place] ...].
   std::int64_t slots = 0;

@@ -60,7 +60,7 @@ void BlockSearch::look(const Network& network, const BlockNetwork& blocks, const
   for (std::int64_t l = 0; l < block.locals(); ++l) {
     const std::int64_t p = place(l);
     for (int k = 0; k < D; ++k) {
-      const double displacement = u[kStride<D> * p + k];
+      const double displacement = u[D * p + k];
       x[D * l + k] = X[D * p + k] + displacement;
       extent = std::fmax(extent, std::fabs(X[D * p + k]) + std::fabs(displacement));
     }

@@ -20,7 +20,7 @@ class BlockSearch {
   void forget();
   // Particles went on by dt v.
   void moved(const BlockNetwork& blocks, const std::vector<VelocityBox>& boxes, double dt);
-  // Bonds that are intact and meet the criterion, ascending.      [in] by place: X (D,n), u (kStride,n)
+  // Bonds that are intact and meet the criterion, ascending.      [in] by place: X, u (D,n)
   template <int D>
   const std::vector<std::int32_t>& find(const BlockNetwork& blocks, const Network& network,
                                         const double* X, const double* u, ThreadTeam& team);

@@ -55,11 +55,12 @@ void BlockStep::fit_scratch(int dimension) {
   const auto locals = at(stride * static_cast<std::int64_t>(net_.largest));
   const bool viscous = parts_.viscosity != nullptr;
   for (Scratch& s : scratch_) {
-    s.u.assign(at(stride * static_cast<std::int64_t>(net_.most_foreign)), 0.0);
+    s.u.assign(at(dimension * static_cast<std::int64_t>(net_.largest)), 0.0);
+    s.f.assign(locals, 0.0);
     s.rows.assign(at(dimension * stride * own), 0.0);
     s.h.assign(at(kTensor * own), 0.0);
     if (P_.empty()) s.P.assign(at(kTensor * (own + 1)), 0.0);
-    for (auto* a : {&s.x, &s.v}) a->assign(viscous ? locals : 0, 0.0);
+    for (auto* a : {&s.x, &s.v, &s.fv}) a->assign(viscous ? locals : 0, 0.0);
     s.X.assign(viscous && parts_.local_lengths ? locals : 0, 0.0);
     s.J.assign(viscous ? at(own) : 0, 0.0);
     net_.reserve(s.rows_of_block, parts_.network);
@@ -70,21 +71,21 @@ template <int D>
 void BlockStep::load(Body& body) {
   const std::int64_t n = body.particles;
   const PointArrays& pt = body.point;
-  const auto vectors = [&](const double* field, std::int64_t stride, auto& to) {
-    to.resize(at(stride * n));
+  const auto vectors = [&](const double* field, std::vector<double>& to) {
+    to.resize(at(D * n));
     for_blocks(*team_, n, [&](std::int64_t, std::int64_t first, std::int64_t last) {
       for (std::int64_t p = first; p < last; ++p)
-        for (int k = 0; k < D; ++k) to[at(stride * p + k)] = field[kVector * net_.given[at(p)] + k];
+        for (int k = 0; k < D; ++k) to[at(D * p + k)] = field[kVector * net_.given[at(p)] + k];
     });
   };
-  if (parts_.viscosity != nullptr || parts_.fracture.active()) vectors(pt.X, D, X_);
-  vectors(pt.u, kStride<D>, u_);
-  vectors(pt.v, kStride<D>, v_);
-  vectors(pt.internal, kStride<D>, f_);
-  slots_.resize(at(kStride<D> * net_.slots));
+  if (parts_.viscosity != nullptr || parts_.fracture.active()) vectors(pt.X, X_);
+  vectors(pt.u, u_);
+  vectors(pt.v, v_);
+  vectors(pt.internal, f_);
+  slots_.resize(at(D * net_.slots));
   if (parts_.viscosity != nullptr) {
-    vectors(pt.viscous, kStride<D>, fv_);
-    viscous_slots_.resize(at(kStride<D> * net_.slots));
+    vectors(pt.viscous, fv_);
+    viscous_slots_.resize(at(D * net_.slots));
   }
   inverse_mass_.resize(at(n));
   volume_.resize(at(n));
@@ -148,10 +149,9 @@ void BlockStep::load_external(const Body& body) {
         std::any_of(field, field + kVector * n, [](double component) { return component != 0; });
   }
   if (has_external_) {
-    fe_.resize(at(kStride<D> * n));
+    fe_.resize(at(D * n));
     for (std::int64_t p = 0; p < n; ++p)
-      for (int k = 0; k < D; ++k)
-        fe_[at(kStride<D> * p + k)] = field[kVector * net_.given[at(p)] + k];
+      for (int k = 0; k < D; ++k) fe_[at(D * p + k)] = field[kVector * net_.given[at(p)] + k];
   }
   external_loaded_ = true;
 }
@@ -192,9 +192,9 @@ void BlockStep::fetch_motion(Body& body) {
     for (std::int64_t p = block.first; p < block.first + block.own; ++p)
       for (int k = 0; k < D; ++k) {
         const std::int64_t c = kVector * net_.given[at(p)] + k;
-        pt.u[c] = u_[at(kStride<D> * p + k)];
+        pt.u[c] = u_[at(D * p + k)];
         pt.x[c] = pt.X[c] + pt.u[c];
-        pt.v[c] = v_[at(kStride<D> * p + k)];
+        pt.v[c] = v_[at(D * p + k)];
       }
   });
 }
@@ -206,7 +206,7 @@ void BlockStep::fetch_forces(Body& body) {
     const Block& block = net_.blocks[at(b)];
     for (std::int64_t p = block.first; p < block.first + block.own; ++p)
       for (int k = 0; k < D; ++k) {
-        const std::int64_t c = kVector * net_.given[at(p)] + k, mine = kStride<D> * p + k;
+        const std::int64_t c = kVector * net_.given[at(p)] + k, mine = D * p + k;
         pt.internal[c] = f_[at(mine)];
         if (!fv_.empty()) pt.viscous[c] = fv_[at(mine)];
         pt.a[c] = total(mine) * inverse_mass_[at(p)];
@@ -326,19 +326,20 @@ void BlockStep::release_unasked(Body& body) {
 }
 
 ParticleState BlockStep::state(const Body& body) {
-  ParticleState s{u_.data(), v_.data(), body.dimension() == 2 ? kStride<2> : kStride<3>,
-                  net_.place.data(), body.history};
+  ParticleState s{u_.data(), v_.data(), body.dimension(), net_.place.data(), body.history};
   for (std::size_t k = 0; k < history_.size(); ++k) s.history.base[k] = history_[k].data();
   return s;
 }
 
 std::int64_t BlockStep::bytes() const {
   std::int64_t sum = net_.bytes();
-  for (const auto* a : {&u_, &v_, &f_, &fv_, &fe_, &slots_, &viscous_slots_}) sum += bytes_of(*a);
-  for (const auto* a : {&X_, &inverse_mass_, &volume_, &P_, &energy_}) sum += bytes_of(*a);
+  for (const auto* a : {&X_, &u_, &v_, &f_, &fv_, &fe_, &inverse_mass_, &volume_, &P_, &energy_,
+                        &slots_, &viscous_slots_})
+    sum += bytes_of(*a);
   for (const auto& h : history_) sum += bytes_of(h);
   for (const Scratch& s : scratch_)
-    for (const auto* a : {&s.u, &s.x, &s.v, &s.X, &s.rows, &s.h, &s.P, &s.J}) sum += bytes_of(*a);
+    for (const auto* a : {&s.u, &s.f, &s.fv, &s.x, &s.v, &s.X, &s.rows, &s.h, &s.P, &s.J})
+      sum += bytes_of(*a);
   return sum + static_cast<std::int64_t>(is_driven_.capacity());
 }
 

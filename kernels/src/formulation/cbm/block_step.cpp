@@ -57,7 +57,7 @@ double BlockStep::advance_driven(Body& body, double dt, PowerSums& powers) {
   double reaction = 0;
   for (const Driven& d : driven_) {
     for (int k = 0; k < D; ++k) {
-      const std::int64_t c = kStride<D> * static_cast<std::int64_t>(d.place) + k;
+      const std::int64_t c = D * static_cast<std::int64_t>(d.place) + k;
       const PrescribedDof* dof = d.dof[at(k)] < 0 ? nullptr : &body.prescribed[at(d.dof[at(k)])];
       const double a = dof != nullptr ? d.a[at(k)] : total(c) * inverse_mass_[at(d.place)];
       const bool exact = dof != nullptr && dof->motion == CLEAVE_MOTION_EXACT;
@@ -91,8 +91,8 @@ template <int D>
 void BlockStep::gather_viscous(const Block& block, Scratch& s) const {
   const auto particle = [&](std::int64_t p, std::int64_t l) {
     for (int k = 0; k < D; ++k) {
-      const double X = X_[at(D * p + k)];
-      const auto to = at(kStride<D> * l + k), from = at(kStride<D> * p + k);
+      const auto to = at(kStride<D> * l + k), from = at(D * p + k);
+      const double X = X_[from];
       s.x[to] = X + u_[from];
       s.v[to] = v_[from];
       if (parts_.local_lengths) s.X[to] = X;
@@ -123,18 +123,17 @@ void clipped_ratio(const double* h, std::int64_t count, double* ratio) {
 // What the gradient needs: displacements, sums at zero.
 template <int D>
 BlockArrays BlockStep::arrays_of(const Block& block, Scratch& s) const {
-  double* to = s.u.data();
-  for (const std::int32_t q : block.foreign) {
-    std::copy_n(u_.data() + kStride<D> * static_cast<std::int64_t>(q), kStride<D>, to);
-    to += kStride<D>;
-  }
+  // Sequential, so that the hardware reads ahead; the loops jump.
+  double* to = std::copy_n(u_.data() + D * static_cast<std::int64_t>(block.first), D * block.own,
+                           s.u.data());
+  for (const std::int32_t q : block.foreign)
+    to = std::copy_n(u_.data() + D * static_cast<std::int64_t>(q), D, to);
   std::fill_n(s.rows.begin(), D * kStride<D> * static_cast<std::int64_t>(block.own), 0.0);
   BlockArrays a{};
   a.own = block.own;
   a.twins = rows_of(block.twins);
   a.halves = rows_of(block.halves);
-  a.u = u_.data() + kStride<D> * static_cast<std::int64_t>(block.first);
-  a.foreign_u = s.u.data();
+  a.u = s.u.data();
   a.rows = s.rows.data();
   a.volume = volume_.data() + block.first;
   return a;
@@ -181,38 +180,45 @@ void BlockStep::form_block(const Body& body, std::int32_t b, const Clock& clock,
 // Forces of own particles, and what the block adds to foreign ones.
 template <int D>
 void BlockStep::form_forces(const Block& block, BlockArrays a, Scratch& s) {
-  const auto own = [&](AlignedReals& all) {
-    double* first = all.data() + kStride<D> * static_cast<std::int64_t>(block.first);
-    std::fill_n(first, kStride<D> * static_cast<std::int64_t>(block.own), 0.0);
-    return first;
+  const auto zero = [&](AlignedReals& f) {
+    std::fill_n(f.begin(), kStride<D> * static_cast<std::int64_t>(block.locals()), 0.0);
+    return f.data();
   };
-  const auto foreign = [&](AlignedReals& slots) {
-    double* first = slots.data() + kStride<D> * block.slot;
-    std::fill_n(first, static_cast<std::size_t>(kStride<D>) * block.foreign.size(), 0.0);
-    return first;
-  };
-  a.f = own(f_);
-  a.foreign_f = foreign(slots_);
+  a.f = zero(s.f);
   kernels_->force[D - 2](a);
+  scatter<D>(block, s.f, f_, slots_);
   if (parts_.viscosity == nullptr) return;
   gather_viscous<D>(block, s);
   a.x = s.x.data();
   a.v = s.v.data();
   a.X = parts_.local_lengths ? s.X.data() : nullptr;
   a.J = s.J.data();
-  a.fv = own(fv_);
-  a.foreign_fv = foreign(viscous_slots_);
+  a.fv = zero(s.fv);
   a.coefficient = parts_.viscosity->beta_rho_c;
   a.length = parts_.viscosity->length;
   kernels_->viscous_force[D - 2](a);
+  scatter<D>(block, s.fv, fv_, viscous_slots_);
+}
+
+// From local particles to own places and slots.
+template <int D>
+void BlockStep::scatter(const Block& block, const AlignedReals& from, std::vector<double>& f,
+                        std::vector<double>& slots) const {
+  const double* next = from.data();
+  const auto copy = [&next](std::size_t count, double* to) {
+    for (std::size_t l = 0; l < count; ++l, next += kStride<D>, to += D)
+      for (int k = 0; k < D; ++k) to[k] = next[k];
+  };
+  copy(at(block.own), f.data() + D * static_cast<std::int64_t>(block.first));
+  copy(block.foreign.size(), slots.data() + D * block.slot);
 }
 
 // To particles at the face of a block, what the blocks around add, in their order.
 template <int D>
 void BlockStep::add_slots(const Block& block) {
-  const auto add = [](const AlignedReals& slots, std::int64_t slot, AlignedReals& f,
+  const auto add = [](const std::vector<double>& slots, std::int64_t slot, std::vector<double>& f,
                       std::int64_t p) {
-    for (int c = 0; c < D; ++c) f[at(kStride<D> * p + c)] += slots[at(kStride<D> * slot + c)];
+    for (int c = 0; c < D; ++c) f[at(D * p + c)] += slots[at(D * slot + c)];
   };
   for (std::int64_t p = block.first; p < block.first + block.surface; ++p) {
     for (std::int32_t k = net_.incoming_begin[at(p)]; k < net_.incoming_begin[at(p) + 1]; ++k) {
@@ -227,7 +233,7 @@ double BlockStep::finish_driven(const Body& body, double half, PowerSums& powers
   double reaction = 0;
   for (Driven& d : driven_) {
     for (int k = 0; k < D; ++k) {
-      const std::int64_t c = kStride<D> * static_cast<std::int64_t>(d.place) + k;
+      const std::int64_t c = D * static_cast<std::int64_t>(d.place) + k;
       const PrescribedDof* dof = d.dof[at(k)] < 0 ? nullptr : &body.prescribed[at(d.dof[at(k)])];
       const double a = dof != nullptr ? dof->acceleration : total(c) * inverse_mass_[at(d.place)];
       double& v = v_[at(c)];

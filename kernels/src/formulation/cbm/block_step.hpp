@@ -62,7 +62,7 @@ class BlockStep final : public ResidentStep {
     std::int64_t failed = -1;  // first local particle whose law has no answer
   };
   struct Scratch {
-    AlignedReals u, x, v, X, rows, h, P, J;  // u: of foreign particles
+    AlignedReals u, x, v, X, rows, h, P, J, f, fv;
     BlockNetwork::Workspace rows_of_block;
   };
   // Groups of fields that are brought up to date together.
@@ -93,6 +93,9 @@ class BlockStep final : public ResidentStep {
   void form_block(const Body& body, std::int32_t b, const Clock& clock, Scratch& s);
   template <int D>
   void form_forces(const Block& block, BlockArrays a, Scratch& s);
+  template <int D>
+  void scatter(const Block& block, const AlignedReals& from, std::vector<double>& f,
+               std::vector<double>& slots) const;
   template <int D>
   void add_slots(const Block& block);
   template <int D>
@@ -132,7 +135,7 @@ class BlockStep final : public ResidentStep {
   bool has_external_ = false;
 
   // By place.
-  AlignedReals u_, v_, f_, fv_, fe_;           // (kStride,n)
+  std::vector<double> u_, v_, f_, fv_, fe_;    // (D,n)
   std::vector<double> X_;                      // (D,n); of fracture or viscosity only
   std::vector<double> inverse_mass_, volume_;  // (n) [kg-1], [m3]
   std::vector<std::vector<double>> history_;   // of every variable: (components,n)
@@ -140,8 +143,8 @@ class BlockStep final : public ResidentStep {
       energy_;                   // (9,n), (n): of laws whose stress is not a function of the state
   std::vector<char> is_driven_;  // (n)
   std::vector<Driven> driven_;
-  std::vector<std::int32_t> driven_entry_;  // (n) into driven_; -1: free
-  AlignedReals slots_, viscous_slots_;      // (kStride,slots)
+  std::vector<std::int32_t> driven_entry_;     // (n) into driven_; -1: free
+  std::vector<double> slots_, viscous_slots_;  // (D,slots)
   std::vector<BlockResult> results_;
   std::vector<VelocityBox> boxes_;
   std::vector<Scratch> scratch_;  // one a worker

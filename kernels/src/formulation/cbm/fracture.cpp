@@ -280,8 +280,8 @@ void Fracture::share_release(const Body& body, const Network& network) {
   const int corner_count = body.dimension() + 1;
   const auto volume_of = [&](std::int32_t s) {
     const std::int32_t* corners = network.corners + Network::kStride * s;
-    return corner_count == 3 ? simplex_geometry<2>(network.X, corners).volume
-                             : simplex_geometry<3>(network.X, corners).volume;
+    return corner_count == 3 ? simplex_volume<2>(network.X, corners)
+                             : simplex_volume<3>(network.X, corners);
   };
   const auto place_of = [&](std::int32_t s, int corner) {
     return at(find_place(touched_, network.corners[Network::kStride * s + corner]));

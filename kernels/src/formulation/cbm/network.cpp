@@ -36,7 +36,6 @@ void Network::build(Body& body, ThreadTeam& team) {
   status = body.fields.integer("bond_status");
   critical = body.fields.real("critical_strain");
   volume = body.point.volume;
-  scratch_.assign(kVector * at(longest_row()), 0.0);
   drop_rows();
   rebuild(team);
 }
@@ -104,12 +103,26 @@ void Network::make_rows(const Body& body, ThreadTeam& team) {
   });
 }
 
-void Network::rebuild_row(std::int64_t i, std::vector<double>& scratch) {
+// Omega_i as form_row gives it, to the bit.
+template <int D>
+double Network::live_volume(std::int64_t i) const {
+  double sum = 0;
+  for (auto k = incidence.begin[at(i)]; k < incidence.begin[at(i + 1)]; ++k) {
+    const std::int64_t s = incidence.simplex[at(k)];
+    if (alive[s] != 0) sum += simplex_volume<D>(X, corners + kStride * s) / (D + 1);
+  }
+  return sum;
+}
+
+void Network::rebuild_row(std::int64_t i) {
+  if (!keeps_rows_) {
+    volume[i] = dimension == 2 ? live_volume<2>(i) : live_volume<3>(i);
+    return;
+  }
   const std::span<const std::int32_t> row = neighbours(i);
   const std::int64_t first = row_begin[at(i)];
-  double* zeta = keeps_rows_ ? rows_.zeta.data() + kVector * first : scratch.data();
+  double* zeta = rows_.zeta.data() + kVector * first;
   volume[i] = dimension == 2 ? form_row<2>(i, zeta, nullptr) : form_row<3>(i, zeta, nullptr);
-  if (!keeps_rows_) return;
   for (std::size_t k = 0; k < row.size(); ++k)
     rows_.weight[at(first) + k] = weight(i, row[k], zeta + kVector * k);
 }
@@ -122,13 +135,12 @@ double Network::weight(std::int64_t i, std::int64_t p, const double* zeta) const
 void Network::rebuild(ThreadTeam& team) {
   for_blocks(team, static_cast<std::int64_t>(row_begin.size()) - 1,
              [&](std::int64_t, std::int64_t first, std::int64_t last) {
-               std::vector<double> scratch(scratch_.size());
-               for (std::int64_t i = first; i < last; ++i) rebuild_row(i, scratch);
+               for (std::int64_t i = first; i < last; ++i) rebuild_row(i);
              });
 }
 
 void Network::rebuild(std::span<const std::int32_t> particles) {
-  for (const std::int32_t i : particles) rebuild_row(i, scratch_);
+  for (const std::int32_t i : particles) rebuild_row(i);
 }
 
 void Network::keep_rows(ThreadTeam& team) {

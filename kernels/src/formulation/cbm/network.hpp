@@ -116,14 +116,15 @@ class Network {
   };
   void check_simplices(const Body& body, ThreadTeam& team) const;
   void make_rows(const Body& body, ThreadTeam& team);
-  void rebuild_row(std::int64_t i, std::vector<double>& scratch);  // (3, longest row)
+  template <int D>
+  double live_volume(std::int64_t i) const;
+  void rebuild_row(std::int64_t i);
   // f(half, i, p, zeta) of half-bonds first <= half < last.
   template <class F>
   void for_half_bonds(std::int64_t first, std::int64_t last, const F& f) const;
 
   Rows rows_;
   bool keeps_rows_ = false;
-  std::vector<double> scratch_;  // (3, longest row) of rebuild
 };
 
 }  // namespace cleave::cbm

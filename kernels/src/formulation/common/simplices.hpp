@@ -15,19 +15,36 @@ struct SimplexGeometry {
   Vec<D> gradient[D + 1];  // grad_X N_a; sum over a is zero
 };
 
-// [CBM 4-7]: constant gradients of the linear shape functions. Nodes may be in any orientation; the
-// gradients do not depend on it. Volume zero: gradients are not finite; check with is_degenerate.
+// X_a - X_0 in columns.
 template <int D, class Index>
-SimplexGeometry<D> simplex_geometry(const double* X, const Index* nodes) {
-  Mat<D> edges;  // columns X_a - X_0
+Mat<D> simplex_edges(const double* X, const Index* nodes) {
+  Mat<D> edges;
   for (int a = 0; a < D; ++a) {
     const Vec<D> e = difference<D>(X, nodes[0], nodes[a + 1]);
     for (int k = 0; k < D; ++k) edges(k, a) = e[k];
   }
+  return edges;
+}
+
+template <int D>
+double volume_of_edges(double det) {
+  return (det < 0 ? -det : det) / (D == 2 ? 2.0 : 6.0);
+}
+
+template <int D, class Index>
+double simplex_volume(const double* X, const Index* nodes) {
+  return volume_of_edges<D>(determinant(simplex_edges<D>(X, nodes)));
+}
+
+// [CBM 4-7]: constant gradients of the linear shape functions. Nodes may be in any orientation; the
+// gradients do not depend on it. Volume zero: gradients are not finite; check with is_degenerate.
+template <int D, class Index>
+SimplexGeometry<D> simplex_geometry(const double* X, const Index* nodes) {
+  const Mat<D> edges = simplex_edges<D>(X, nodes);
   const double det = determinant(edges);
   const Mat<D> cof = cofactor(edges);  // det * edges^-T: column a is det * gradient of node a+1
   SimplexGeometry<D> s;
-  s.volume = (det < 0 ? -det : det) / (D == 2 ? 2.0 : 6.0);
+  s.volume = volume_of_edges<D>(det);
   const double inverse = 1 / det;
   for (int k = 0; k < D; ++k) {
     double sum = 0;
@@ -51,12 +68,7 @@ bool is_degenerate(const double* X, const Index* nodes) {
       const Vec<D> e = difference<D>(X, nodes[a], nodes[b]);
       longest = std::fmax(longest, dot(e, e));
     }
-  Mat<D> edges;
-  for (int a = 0; a < D; ++a) {
-    const Vec<D> e = difference<D>(X, nodes[0], nodes[a + 1]);
-    for (int k = 0; k < D; ++k) edges(k, a) = e[k];
-  }
-  const double volume = std::fabs(determinant(edges));
+  const double volume = std::fabs(determinant(simplex_edges<D>(X, nodes)));
   return !(volume > kDegenerate * std::pow(longest, 0.5 * D));
 }
 
