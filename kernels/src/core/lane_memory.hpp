@@ -123,7 +123,7 @@ template <int K, int W, int N>
 CLEAVE_INLINE void load_components(const double* base, std::int64_t stride, Pack<W, N> (&c)[K]) {
   using Block = Transposed<N>;
   constexpr int kWhole = K / Block::kBlock * Block::kBlock;
-  const auto block_at = [&](int n, int k) {
+  const auto block_at = [&](int n, int k) CLEAVE_INLINE_CALL {
     typename Block::Reals block[Block::kBlock];
     Block::load(base + n * N * stride + k, stride, block);
     for (int j = 0; j < Block::kBlock; ++j) c[k + j].r[n] = block[j];
@@ -146,7 +146,7 @@ CLEAVE_INLINE void store_components(const Pack<W, N> (&c)[K], double* base, std:
   using Block = Transposed<N>;
   constexpr int kWhole = K / Block::kBlock * Block::kBlock;
   constexpr bool kOverlap = kWhole > 0 && K - kWhole > 1;
-  const auto block_at = [&](int n, int k) {
+  const auto block_at = [&](int n, int k) CLEAVE_INLINE_CALL {
     typename Block::Reals block[Block::kBlock];
     for (int j = 0; j < Block::kBlock; ++j) block[j] = c[k + j].r[n];
     Block::store(block, base + n * N * stride + k, stride);

@@ -15,6 +15,7 @@
 
 // For functions whose arguments would otherwise travel through memory.
 #define CLEAVE_INLINE [[gnu::always_inline]] inline
+#define CLEAVE_INLINE_CALL __attribute__((always_inline))  // of a lambda
 
 namespace cleave {
 

@@ -52,20 +52,20 @@ using MaskOf = typename LaneTraits<R>::Mask;
 template <class R>
 inline constexpr int kLanesOf = LaneTraits<R>::kLanes;
 
-#define CLEAVE_LANES_ARITHMETIC(op)                                             \
-  template <int W, int N>                                                       \
-  inline Pack<W, N> operator op(const Pack<W, N>& a, const Pack<W, N>& b) {     \
-    Pack<W, N> c;                                                               \
-    for (int k = 0; k < Pack<W, N>::kRegisters; ++k) c.r[k] = a.r[k] op b.r[k]; \
-    return c;                                                                   \
-  }                                                                             \
-  template <int W, int N>                                                       \
-  inline Pack<W, N> operator op(const Pack<W, N>& a, double b) {                \
-    return a op Pack<W, N>(b);                                                  \
-  }                                                                             \
-  template <int W, int N>                                                       \
-  inline Pack<W, N> operator op(double a, const Pack<W, N>& b) {                \
-    return Pack<W, N>(a) op b;                                                  \
+#define CLEAVE_LANES_ARITHMETIC(op)                                                \
+  template <int W, int N>                                                          \
+  CLEAVE_INLINE Pack<W, N> operator op(const Pack<W, N>& a, const Pack<W, N>& b) { \
+    Pack<W, N> c;                                                                  \
+    for (int k = 0; k < Pack<W, N>::kRegisters; ++k) c.r[k] = a.r[k] op b.r[k];    \
+    return c;                                                                      \
+  }                                                                                \
+  template <int W, int N>                                                          \
+  CLEAVE_INLINE Pack<W, N> operator op(const Pack<W, N>& a, double b) {            \
+    return a op Pack<W, N>(b);                                                     \
+  }                                                                                \
+  template <int W, int N>                                                          \
+  CLEAVE_INLINE Pack<W, N> operator op(double a, const Pack<W, N>& b) {            \
+    return Pack<W, N>(a) op b;                                                     \
   }
 CLEAVE_LANES_ARITHMETIC(+)
 CLEAVE_LANES_ARITHMETIC(-)
@@ -75,7 +75,7 @@ CLEAVE_LANES_ARITHMETIC(/)
 
 #define CLEAVE_LANES_BY_REGISTER(Result, name, Argument, expression)                   \
   template <int W, int N>                                                              \
-  inline Result<W, N> name(const Argument<W, N>& a, const Argument<W, N>& b) {         \
+  CLEAVE_INLINE Result<W, N> name(const Argument<W, N>& a, const Argument<W, N>& b) {  \
     Result<W, N> c;                                                                    \
     for (int k = 0; k < Result<W, N>::kRegisters; ++k) c.r[k] = Native<N>::expression; \
     return c;                                                                          \
@@ -90,10 +90,10 @@ CLEAVE_LANES_BY_REGISTER(Mask, operator|, Mask, either(a.r[k], b.r[k]))
 CLEAVE_LANES_BY_REGISTER(Mask, except, Mask, without(b.r[k], a.r[k]))  // a and not b
 #undef CLEAVE_LANES_BY_REGISTER
 
-#define CLEAVE_LANES_COMPARISON(op)                              \
-  template <int W, int N>                                        \
-  inline Mask<W, N> operator op(const Pack<W, N>& a, double b) { \
-    return a op Pack<W, N>(b);                                   \
+#define CLEAVE_LANES_COMPARISON(op)                                     \
+  template <int W, int N>                                               \
+  CLEAVE_INLINE Mask<W, N> operator op(const Pack<W, N>& a, double b) { \
+    return a op Pack<W, N>(b);                                          \
   }
 CLEAVE_LANES_COMPARISON(<)
 CLEAVE_LANES_COMPARISON(<=)
@@ -102,135 +102,135 @@ CLEAVE_LANES_COMPARISON(>=)
 #undef CLEAVE_LANES_COMPARISON
 
 template <int W, int N>
-inline Mask<W, N> operator!(const Mask<W, N>& a) {
+CLEAVE_INLINE Mask<W, N> operator!(const Mask<W, N>& a) {
   return except(equal(Pack<W, N>(0.0), Pack<W, N>(0.0)), a);
 }
 template <int W, int N>
-inline Pack<W, N> operator-(const Pack<W, N>& a) {
+CLEAVE_INLINE Pack<W, N> operator-(const Pack<W, N>& a) {
   Pack<W, N> c;
   for (int k = 0; k < Pack<W, N>::kRegisters; ++k) c.r[k] = -a.r[k];
   return c;
 }
 
-inline bool any(bool m) { return m; }
-inline bool all(bool m) { return m; }
+CLEAVE_INLINE bool any(bool m) { return m; }
+CLEAVE_INLINE bool all(bool m) { return m; }
 template <int W, int N>
-inline bool any(const Mask<W, N>& m) {
+CLEAVE_INLINE bool any(const Mask<W, N>& m) {
   auto together = m.r[0];
   for (int k = 1; k < Mask<W, N>::kRegisters; ++k) together = Native<N>::either(together, m.r[k]);
   return Native<N>::any(together);
 }
 template <int W, int N>
-inline bool all(const Mask<W, N>& m) {
+CLEAVE_INLINE bool all(const Mask<W, N>& m) {
   auto together = m.r[0];
   for (int k = 1; k < Mask<W, N>::kRegisters; ++k) together = Native<N>::both(together, m.r[k]);
   return Native<N>::all(together);
 }
 
 // a where m, else b: both are computed, so neither may trap.
-inline double select(bool m, double a, double b) { return m ? a : b; }
+CLEAVE_INLINE double select(bool m, double a, double b) { return m ? a : b; }
 template <int W, int N>
-inline Pack<W, N> select(const Mask<W, N>& m, const Pack<W, N>& a, const Pack<W, N>& b) {
+CLEAVE_INLINE Pack<W, N> select(const Mask<W, N>& m, const Pack<W, N>& a, const Pack<W, N>& b) {
   Pack<W, N> c;
   for (int k = 0; k < Pack<W, N>::kRegisters; ++k)
     c.r[k] = Native<N>::choose(m.r[k], a.r[k], b.r[k]);
   return c;
 }
 
-inline double lane(double x, int) { return x; }
-inline bool lane(bool m, int) { return m; }
+CLEAVE_INLINE double lane(double x, int) { return x; }
+CLEAVE_INLINE bool lane(bool m, int) { return m; }
 template <int W, int N>
-inline double lane(const Pack<W, N>& a, int l) {
+CLEAVE_INLINE double lane(const Pack<W, N>& a, int l) {
   return a.r[l / N][l % N];
 }
 template <int W, int N>
-inline bool lane(const Mask<W, N>& m, int l) {
+CLEAVE_INLINE bool lane(const Mask<W, N>& m, int l) {
   return Native<N>::flag(m.r[l / N], l % N);
 }
-inline void set_lane(double& x, int, double value) { x = value; }
-inline void set_lane(bool& m, int, bool value) { m = value; }
+CLEAVE_INLINE void set_lane(double& x, int, double value) { x = value; }
+CLEAVE_INLINE void set_lane(bool& m, int, bool value) { m = value; }
 template <int W, int N>
-inline void set_lane(Pack<W, N>& a, int l, double value) {
+CLEAVE_INLINE void set_lane(Pack<W, N>& a, int l, double value) {
   a.r[l / N][l % N] = value;
 }
 template <int W, int N>
-inline void set_lane(Mask<W, N>& m, int l, bool value) {
+CLEAVE_INLINE void set_lane(Mask<W, N>& m, int l, bool value) {
   Native<N>::set_flag(m.r[l / N], l % N, value);
 }
 
-inline double square_root(double x) { return std::sqrt(x); }
+CLEAVE_INLINE double square_root(double x) { return std::sqrt(x); }
 template <int W, int N>
-inline Pack<W, N> square_root(const Pack<W, N>& a) {
+CLEAVE_INLINE Pack<W, N> square_root(const Pack<W, N>& a) {
   Pack<W, N> c;
   for (int k = 0; k < Pack<W, N>::kRegisters; ++k) c.r[k] = Native<N>::root(a.r[k]);
   return c;
 }
 
-inline double absolute(double x) { return std::fabs(x); }
+CLEAVE_INLINE double absolute(double x) { return std::fabs(x); }
 template <int W, int N>
-inline Pack<W, N> absolute(const Pack<W, N>& a) {
+CLEAVE_INLINE Pack<W, N> absolute(const Pack<W, N>& a) {
   Pack<W, N> c;
   for (int k = 0; k < Pack<W, N>::kRegisters; ++k) c.r[k] = Native<N>::absolute(a.r[k]);
   return c;
 }
 
 // By equality alone: unlike an order, it raises no flag for a quiet NaN.
-inline bool equal(double a, double b) { return a == b; }
-inline bool except(bool a, bool b) { return a && !b; }
+CLEAVE_INLINE bool equal(double a, double b) { return a == b; }
+CLEAVE_INLINE bool except(bool a, bool b) { return a && !b; }
 template <class R>
-inline MaskOf<R> is_finite(const R& x) {
+CLEAVE_INLINE MaskOf<R> is_finite(const R& x) {
   return except(equal(x, x), equal(absolute(x), R(std::numeric_limits<double>::infinity())));
 }
 
 // The bits of both, for the two questions below about several numbers at once. Integer operations:
 // nothing raises a flag, whatever the bits are.
-inline double join_bits(double a, double b) {
+CLEAVE_INLINE double join_bits(double a, double b) {
   return std::bit_cast<double>(std::bit_cast<std::uint64_t>(a) | std::bit_cast<std::uint64_t>(b));
 }
 template <int W, int N>
-inline Pack<W, N> join_bits(const Pack<W, N>& a, const Pack<W, N>& b) {
+CLEAVE_INLINE Pack<W, N> join_bits(const Pack<W, N>& a, const Pack<W, N>& b) {
   Pack<W, N> c;
   for (int k = 0; k < Pack<W, N>::kRegisters; ++k) c.r[k] = Native<N>::join(a.r[k], b.r[k]);
   return c;
 }
-inline bool any_bit(double a, std::int64_t bits) {
+CLEAVE_INLINE bool any_bit(double a, std::int64_t bits) {
   return (std::bit_cast<std::int64_t>(a) & bits) != 0;
 }
 template <int W, int N>
-inline bool any_bit(const Pack<W, N>& a, std::int64_t bits) {
+CLEAVE_INLINE bool any_bit(const Pack<W, N>& a, std::int64_t bits) {
   auto together = a.r[0];
   for (int k = 1; k < Pack<W, N>::kRegisters; ++k) together = Native<N>::join(together, a.r[k]);
   return Native<N>::any_bit(together, bits);
 }
 // Whether one of the joined numbers, in any lane, is not below 2 in size (infinite and NaN: yes).
 template <class R>
-inline bool any_reaches_two(const R& joined) {
+CLEAVE_INLINE bool any_reaches_two(const R& joined) {
   return any_bit(joined, std::int64_t{1} << 62);
 }
 // Whether one is not +0.
 template <class R>
-inline bool any_not_zero(const R& joined) {
+CLEAVE_INLINE bool any_not_zero(const R& joined) {
   return any_bit(joined, -1);
 }
 template <class R>
-inline bool any_negative(const R& x) {
+CLEAVE_INLINE bool any_negative(const R& x) {
   return any_bit(x, std::numeric_limits<std::int64_t>::min());
 }
 
 // The nearest integer of |x| < 2^51, ties to even.
 template <class R>
-inline R nearest_integer(const R& x) {
+CLEAVE_INLINE R nearest_integer(const R& x) {
   constexpr double kShift = 0x1.8p52;
   return (x + kShift) - kShift;
 }
 
 // 2^k of an integer -1022 <= k <= 1023: the sum's last bits are the biased exponent.
 inline constexpr double kExponentShift = 0x1.8p52 + 1023;
-inline double power_of_two(double k) {
+CLEAVE_INLINE double power_of_two(double k) {
   return std::bit_cast<double>(std::bit_cast<std::uint64_t>(k + kExponentShift) << 52);
 }
 template <int W, int N>
-inline Pack<W, N> power_of_two(const Pack<W, N>& k) {
+CLEAVE_INLINE Pack<W, N> power_of_two(const Pack<W, N>& k) {
   typedef std::uint64_t Bits __attribute__((vector_size(8 * N)));
   using Reals = typename Pack<W, N>::Register;
   Pack<W, N> c;
@@ -241,12 +241,12 @@ inline Pack<W, N> power_of_two(const Pack<W, N>& k) {
 
 // The exponent e of a normal x > 0, 2^e <= x < 2^(e+1).
 inline constexpr std::int64_t kBitsOfTwo52 = 0x4330000000000000ll;
-inline double exponent_of(double x) {
+CLEAVE_INLINE double exponent_of(double x) {
   return std::bit_cast<double>((std::bit_cast<std::int64_t>(x) >> 52) | kBitsOfTwo52) -
          (0x1p52 + 1023);
 }
 template <int W, int N>
-inline Pack<W, N> exponent_of(const Pack<W, N>& a) {
+CLEAVE_INLINE Pack<W, N> exponent_of(const Pack<W, N>& a) {
   typedef std::uint64_t Unsigned __attribute__((vector_size(8 * N)));
   using Reals = typename Pack<W, N>::Register;
   Pack<W, N> c;
@@ -260,7 +260,7 @@ inline Pack<W, N> exponent_of(const Pack<W, N>& a) {
 
 // Lane l is base[l * stride]. kUnit: stride is one.
 template <class R, bool kUnit>
-inline R load_lanes(const double* base, std::int64_t stride) {
+CLEAVE_INLINE R load_lanes(const double* base, std::int64_t stride) {
   if constexpr (kLanesOf<R> == 1) {
     return *base;
   } else {
@@ -274,7 +274,7 @@ inline R load_lanes(const double* base, std::int64_t stride) {
   }
 }
 template <class R, bool kUnit>
-inline void store_lanes(const R& a, double* base, std::int64_t stride) {
+CLEAVE_INLINE void store_lanes(const R& a, double* base, std::int64_t stride) {
   if constexpr (kLanesOf<R> == 1) {
     *base = a;
   } else if constexpr (kUnit) {
@@ -285,16 +285,16 @@ inline void store_lanes(const R& a, double* base, std::int64_t stride) {
 }
 
 // a where a < b, else b; and a where a > b, else b.
-inline double smaller(double a, double b) { return a < b ? a : b; }
-inline double larger(double a, double b) { return a > b ? a : b; }
+CLEAVE_INLINE double smaller(double a, double b) { return a < b ? a : b; }
+CLEAVE_INLINE double larger(double a, double b) { return a > b ? a : b; }
 template <int W, int N>
-inline Pack<W, N> smaller(const Pack<W, N>& a, const Pack<W, N>& b) {
+CLEAVE_INLINE Pack<W, N> smaller(const Pack<W, N>& a, const Pack<W, N>& b) {
   Pack<W, N> c;
   for (int k = 0; k < Pack<W, N>::kRegisters; ++k) c.r[k] = Native<N>::smaller(a.r[k], b.r[k]);
   return c;
 }
 template <int W, int N>
-inline Pack<W, N> larger(const Pack<W, N>& a, const Pack<W, N>& b) {
+CLEAVE_INLINE Pack<W, N> larger(const Pack<W, N>& a, const Pack<W, N>& b) {
   Pack<W, N> c;
   for (int k = 0; k < Pack<W, N>::kRegisters; ++k) c.r[k] = Native<N>::larger(a.r[k], b.r[k]);
   return c;

@@ -18,13 +18,13 @@ struct Symmetric {
 };
 
 template <class R>
-inline R trace(const Symmetric<R>& s) {
+CLEAVE_INLINE R trace(const Symmetric<R>& s) {
   return (s.xx + s.yy) + s.zz;
 }
 
 // s : s
 template <class R>
-inline R squared_norm(const Symmetric<R>& s) {
+CLEAVE_INLINE R squared_norm(const Symmetric<R>& s) {
   return ((s.xx * s.xx + s.yy * s.yy) + s.zz * s.zz) +
          2.0 * ((s.xy * s.xy + s.yz * s.yz) + s.zx * s.zx);
 }
@@ -37,7 +37,7 @@ CLEAVE_INLINE R determinant(const Symmetric<R>& s) {
 
 // Plus a multiple of the identity.
 template <class R>
-inline Symmetric<R> plus_spherical(Symmetric<R> s, const R& p) {
+CLEAVE_INLINE Symmetric<R> plus_spherical(Symmetric<R> s, const R& p) {
   s.xx = s.xx + p;
   s.yy = s.yy + p;
   s.zz = s.zz + p;
@@ -45,33 +45,34 @@ inline Symmetric<R> plus_spherical(Symmetric<R> s, const R& p) {
 }
 
 template <class R>
-inline Symmetric<R> scaled(const R& a, const Symmetric<R>& s) {
+CLEAVE_INLINE Symmetric<R> scaled(const R& a, const Symmetric<R>& s) {
   return {a * s.xx, a * s.yy, a * s.zz, a * s.xy, a * s.yz, a * s.zx};
 }
 
 template <class R>
-inline Symmetric<R> operator+(const Symmetric<R>& a, const Symmetric<R>& b) {
+CLEAVE_INLINE Symmetric<R> operator+(const Symmetric<R>& a, const Symmetric<R>& b) {
   return {a.xx + b.xx, a.yy + b.yy, a.zz + b.zz, a.xy + b.xy, a.yz + b.yz, a.zx + b.zx};
 }
 
 template <class R>
-inline Symmetric<R> select(const MaskOf<R>& m, const Symmetric<R>& a, const Symmetric<R>& b) {
+CLEAVE_INLINE Symmetric<R> select(const MaskOf<R>& m, const Symmetric<R>& a,
+                                  const Symmetric<R>& b) {
   return {select(m, a.xx, b.xx), select(m, a.yy, b.yy), select(m, a.zz, b.zz),
           select(m, a.xy, b.xy), select(m, a.yz, b.yz), select(m, a.zx, b.zx)};
 }
 template <class R>
-inline Full<R> select(const MaskOf<R>& m, const Full<R>& a, const Full<R>& b) {
+CLEAVE_INLINE Full<R> select(const MaskOf<R>& m, const Full<R>& a, const Full<R>& b) {
   return {select(m, a.xx, b.xx), select(m, a.xy, b.xy), select(m, a.xz, b.xz),
           select(m, a.yx, b.yx), select(m, a.yy, b.yy), select(m, a.yz, b.yz),
           select(m, a.zx, b.zx), select(m, a.zy, b.zy), select(m, a.zz, b.zz)};
 }
 
 template <class R>
-inline Symmetric<double> lane(const Symmetric<R>& s, int l) {
+CLEAVE_INLINE Symmetric<double> lane(const Symmetric<R>& s, int l) {
   return {lane(s.xx, l), lane(s.yy, l), lane(s.zz, l), lane(s.xy, l), lane(s.yz, l), lane(s.zx, l)};
 }
 template <class R>
-inline void set_lane(Symmetric<R>& s, int l, const Symmetric<double>& v) {
+CLEAVE_INLINE void set_lane(Symmetric<R>& s, int l, const Symmetric<double>& v) {
   set_lane(s.xx, l, v.xx);
   set_lane(s.yy, l, v.yy);
   set_lane(s.zz, l, v.zz);
@@ -82,7 +83,7 @@ inline void set_lane(Symmetric<R>& s, int l, const Symmetric<double>& v) {
 
 // A B of symmetric A and B that commute: symmetric.
 template <class R>
-inline Symmetric<R> commuting_product(const Symmetric<R>& a, const Symmetric<R>& b) {
+CLEAVE_INLINE Symmetric<R> commuting_product(const Symmetric<R>& a, const Symmetric<R>& b) {
   return {(a.xx * b.xx + a.xy * b.xy) + a.zx * b.zx, (a.xy * b.xy + a.yy * b.yy) + a.yz * b.yz,
           (a.zx * b.zx + a.yz * b.yz) + a.zz * b.zz, (a.xx * b.xy + a.xy * b.yy) + a.zx * b.yz,
           (a.xy * b.zx + a.yy * b.yz) + a.yz * b.zz, (a.zx * b.xx + a.yz * b.xy) + a.zz * b.zx};
@@ -90,7 +91,7 @@ inline Symmetric<R> commuting_product(const Symmetric<R>& a, const Symmetric<R>&
 
 // H + Z + H Z, that is F (I+Z) - I with F = I + H.
 template <class R>
-inline Full<R> compose(const Full<R>& h, const Symmetric<R>& z) {
+CLEAVE_INLINE Full<R> compose(const Full<R>& h, const Symmetric<R>& z) {
   return {h.xx + (z.xx + ((h.xx * z.xx + h.xy * z.xy) + h.xz * z.zx)),
           h.xy + (z.xy + ((h.xx * z.xy + h.xy * z.yy) + h.xz * z.yz)),
           h.xz + (z.zx + ((h.xx * z.zx + h.xy * z.yz) + h.xz * z.zz)),
@@ -103,11 +104,11 @@ inline Full<R> compose(const Full<R>& h, const Symmetric<R>& z) {
 }
 
 template <class R>
-inline R join_bits(const Symmetric<R>& s) {
+CLEAVE_INLINE R join_bits(const Symmetric<R>& s) {
   return join_bits(join_bits(join_bits(s.xx, s.yy), join_bits(s.zz, s.xy)), join_bits(s.yz, s.zx));
 }
 template <class R>
-inline R join_bits(const Full<R>& t) {
+CLEAVE_INLINE R join_bits(const Full<R>& t) {
   return join_bits(join_bits(join_bits(join_bits(t.xx, t.xy), join_bits(t.xz, t.yx)),
                              join_bits(join_bits(t.yy, t.yz), join_bits(t.zx, t.zy))),
                    t.zz);
@@ -133,7 +134,7 @@ CLEAVE_INLINE Symmetric<R> push_forward_minus_identity(const Full<R>& h, const S
 
 // (F^T F - I)/2 of F = I + H, with all digits for small H.
 template <class R>
-inline Symmetric<R> green_lagrange(const Full<R>& h) {
+CLEAVE_INLINE Symmetric<R> green_lagrange(const Full<R>& h) {
   return {h.xx + 0.5 * ((h.xx * h.xx + h.yx * h.yx) + h.zx * h.zx),
           h.yy + 0.5 * ((h.xy * h.xy + h.yy * h.yy) + h.zy * h.zy),
           h.zz + 0.5 * ((h.xz * h.xz + h.yz * h.yz) + h.zz * h.zz),
@@ -144,7 +145,7 @@ inline Symmetric<R> green_lagrange(const Full<R>& h) {
 
 // A S
 template <class R>
-inline Full<R> multiply(const Full<R>& a, const Symmetric<R>& s) {
+CLEAVE_INLINE Full<R> multiply(const Full<R>& a, const Symmetric<R>& s) {
   return {(a.xx * s.xx + a.xy * s.xy) + a.xz * s.zx, (a.xx * s.xy + a.xy * s.yy) + a.xz * s.yz,
           (a.xx * s.zx + a.xy * s.yz) + a.xz * s.zz, (a.yx * s.xx + a.yy * s.xy) + a.yz * s.zx,
           (a.yx * s.xy + a.yy * s.yy) + a.yz * s.yz, (a.yx * s.zx + a.yy * s.yz) + a.yz * s.zz,
@@ -153,7 +154,7 @@ inline Full<R> multiply(const Full<R>& a, const Symmetric<R>& s) {
 }
 // S A
 template <class R>
-inline Full<R> multiply(const Symmetric<R>& s, const Full<R>& a) {
+CLEAVE_INLINE Full<R> multiply(const Symmetric<R>& s, const Full<R>& a) {
   return {(s.xx * a.xx + s.xy * a.yx) + s.zx * a.zx, (s.xx * a.xy + s.xy * a.yy) + s.zx * a.zy,
           (s.xx * a.xz + s.xy * a.yz) + s.zx * a.zz, (s.xy * a.xx + s.yy * a.yx) + s.yz * a.zx,
           (s.xy * a.xy + s.yy * a.yy) + s.yz * a.zy, (s.xy * a.xz + s.yy * a.yz) + s.yz * a.zz,
@@ -163,7 +164,7 @@ inline Full<R> multiply(const Symmetric<R>& s, const Full<R>& a) {
 
 // A^T S A
 template <class R>
-inline Symmetric<R> pull_back(const Full<R>& a, const Symmetric<R>& s) {
+CLEAVE_INLINE Symmetric<R> pull_back(const Full<R>& a, const Symmetric<R>& s) {
   const Full<R> b = multiply(s, a);
   return {(a.xx * b.xx + a.yx * b.yx) + a.zx * b.zx, (a.xy * b.xy + a.yy * b.yy) + a.zy * b.zy,
           (a.xz * b.xz + a.yz * b.yz) + a.zz * b.zz, (a.xx * b.xy + a.yx * b.yy) + a.zx * b.zy,
@@ -177,7 +178,7 @@ struct Cofactor {
   R volume_change{0.0};
 };
 template <class R>
-inline Cofactor<R> select(const MaskOf<R>& m, const Cofactor<R>& a, const Cofactor<R>& b) {
+CLEAVE_INLINE Cofactor<R> select(const MaskOf<R>& m, const Cofactor<R>& a, const Cofactor<R>& b) {
   return {select(m, a.cofactor, b.cofactor), select(m, a.volume_change, b.volume_change)};
 }
 template <class R>
