@@ -53,6 +53,8 @@ double stiffness_length(const Network& network, std::int64_t particles) {
 void ContinuumBondMethod::setup(Body& body) {
   refuse_group(body, "kernel", "it belongs to formulations tlsph and nosb");
   refuse_group(body, "hourglass", "it belongs to tlsph and nosb; here it is group stabilisation");
+  refuse_group(body, "peridynamics", "it belongs to formulations bond_pd, cpd and lps");
+  refuse_group(body, "cpd", "it belongs to formulation cpd");
   if (body.simplex_nodes != body.dimension() + 1) {
     throw Error(CLEAVE_UNSUPPORTED,
                 text(body.label(), ": cbm takes simplices of ", body.dimension() + 1,
