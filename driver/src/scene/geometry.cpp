@@ -12,12 +12,36 @@
 #include "io/error.hpp"
 #include "io/lattice.hpp"
 #include "io/mesh.hpp"
+#include "scene/cloud.hpp"
 #include "scene/format.hpp"
 #include "scene/index.hpp"
 #include "scene/split.hpp"
 
 namespace cleave::driver {
 namespace {
+
+bool has_cell_points(const DeckGroup& group) {
+  return group.name == "lattice" && group.text("points") == "centres";
+}
+
+// Points in the middle of cells: the lattice of their own is half a spacing smaller on each side.
+void check_cell_points(const Deck& deck, const DeckGroup& group) {
+  if (!has_cell_points(group)) return;
+  const std::string& type = group.text("type");
+  if ((type != "square" && type != "cubic") || group.text("shape") != "block") {
+    deck.fail(
+        group, "points",
+        "points = 'centres' is for blocks of a square or cubic lattice; use points = 'corners', or "
+        "a file of points");
+  }
+  for (std::size_t k = 0; k < (type == "square" ? 2u : 3u); ++k) {
+    if (group.reals("size")[k] > 1.5 * group.real("spacing")) continue;
+    deck.fail(group, "size",
+              "points = 'centres' needs two cells or more along each axis; along " +
+                  std::string(1, "xyz"[k]) + " the size is " + number(group.reals("size")[k]) +
+                  " and the spacing " + number(group.real("spacing")));
+  }
+}
 
 io::LatticeSpec lattice_spec(const DeckGroup& group) {
   static const std::map<std::string, io::LatticeKind> kinds{
@@ -37,6 +61,12 @@ io::LatticeSpec lattice_spec(const DeckGroup& group) {
   const auto& size = group.reals("size");
   std::copy_n(origin.begin(), 3, spec.origin.begin());
   std::copy_n(size.begin(), 3, spec.size.begin());
+  if (has_cell_points(group)) {
+    for (std::size_t k = 0; k < (spec.lattice == io::LatticeKind::square ? 2u : 3u); ++k) {
+      spec.origin[k] += 0.5 * spec.spacing;
+      spec.size[k] -= spec.spacing;
+    }
+  }
   spec.radius = group.real("radius");
   spec.height = group.real("height");
   spec.axis = group.text("axis")[0] - 'x';
@@ -46,6 +76,7 @@ io::LatticeSpec lattice_spec(const DeckGroup& group) {
 io::Mesh mesh_of(const Deck& deck, const DeckGroup& group) {
   namespace fs = std::filesystem;
   if (group.name == "lattice") {
+    check_cell_points(deck, group);
     try {
       return io::make_lattice(lattice_spec(group));
     } catch (const io::Error& error) {
@@ -171,6 +202,33 @@ std::vector<Index> take_simplices(const Deck& deck, const DeckGroup& group, cons
   return number_of;
 }
 
+// Bodies whose particles have volumes of their own.
+void take_volumes(const Deck& deck, const DeckGroup& group, const DeckGroup& source,
+                  BodyGeometry& body) {
+  const bool cells = group.text("particles") == "cells";
+  if (cells && has_cell_points(source)) {
+    deck.fail(
+        group, "particles",
+        "the points of the lattice are the middles of its cells already; use particles = 'nodes'");
+  }
+  if (cells && group.text("elements") == "quadratic") {
+    deck.fail(group, "particles", "particles = 'cells' has no elements; use elements = 'linear'");
+  }
+  if (cells) turn_cells_into_points(body);
+  if (has_cell_points(source)) {
+    body.volumes.assign(at(body.particles()), std::pow(source.real("spacing"), body.dimension));
+  }
+}
+
+BodyGeometry take_points(const Deck& deck, const DeckGroup& group, const DeckGroup& source) {
+  BodyGeometry body = read_points(deck, source, dimension_of(group.text("kinematics")));
+  body.name = group.text("name");
+  const auto& shift = group.reals("translate");
+  for (std::size_t c = 0; c < body.X.size(); ++c) body.X[c] += shift[c % 3];
+  if (body.dimension == 2) flatten(deck, group, body);
+  return body;
+}
+
 BodyGeometry take_body(const Deck& deck, const DeckGroup& group, const io::Mesh& mesh,
                        std::vector<Index>& crack_use) {
   BodyGeometry body;
@@ -277,6 +335,11 @@ void make_quadratic(BodyGeometry& body) {
 
 double shortest_edge(const BodyGeometry& body) {
   if (body.shortest_edge_found > 0) return body.shortest_edge_found;
+  if (body.cloud) {
+    const double least = *std::min_element(body.volumes.begin(), body.volumes.end());
+    body.shortest_edge_found = std::pow(least, 1.0 / body.dimension);
+    return body.shortest_edge_found;
+  }
   double square = std::numeric_limits<double>::infinity();
   std::array<double, 3> shortest{};
   const int corners = body.dimension + 1;
@@ -332,9 +395,16 @@ std::vector<BodyGeometry> take_bodies(const Deck& deck) {
   for (const DeckGroup* group : groups) {
     check_body_name(deck, *group);
     const std::string& mesh = group->text("mesh");
+    const DeckGroup& source = named_group(deck, {"mesh", "lattice", "points"}, mesh);
+    if (source.name == "points") {
+      bodies.push_back(take_points(deck, *group, source));
+      continue;
+    }
     bodies.push_back(take_body(deck, *group, meshes.get(mesh), crack_use));
+    take_volumes(deck, *group, source, bodies.back());
     meshes.used(mesh);
   }
+  cut_notches(deck, bodies);
   for (std::size_t i = 0; i < precracks.size(); ++i) {
     if (precracks[i]->text("shape") == "group" && crack_use[i] == 0) {
       deck.fail(*precracks[i], "set",
