@@ -148,7 +148,8 @@ void ContinuumKinematicsPeridynamics::prepare(Body& body) {
   expect_workers(1);
   if (constants_.three != 0) {
     sums_.assign(static_cast<std::size_t>(4 * hood_.points), 0.0);
-    cloud_.setup(hood_);
+    const Lattice lattice = use_lattice_ && !conservative_ ? find_lattice(hood_) : Lattice{};
+    if (!lattice.found() || !lattice_.setup(hood_, lattice, signed_volume_)) cloud_.setup(hood_);
   }
 }
 
@@ -207,6 +208,7 @@ double ContinuumKinematicsPeridynamics::largest_rate(const Body& body) const {
 }
 
 void ContinuumKinematicsPeridynamics::expect_workers(int workers) {
+  lattice_.expect_workers(workers);
   if (three_.empty() || scratch_.size() >= static_cast<std::size_t>(workers)) return;
   scratch_.resize(static_cast<std::size_t>(workers));
   const std::int32_t most = hood_.most_neighbours();
@@ -279,9 +281,13 @@ void ContinuumKinematicsPeridynamics::add_triangles(Body& body, ThreadTeam& team
 // All as if every bond carried, then points with a broken bond by themselves; conservative weights know of
 // broken bonds.                                                                        [PD three, 13]
 void ContinuumKinematicsPeridynamics::add_tetrahedra(Body& body, ThreadTeam& team) {
-  cloud_.sum(hood_, damage_,
-             {body.point.x, signed_volume_, conservative_ ? three_.data() : nullptr}, team,
-             scratch_, sums_.data());
+  if (lattice_.active()) {
+    lattice_.sum(body.point.u, team, sums_.data());
+  } else {
+    cloud_.sum(hood_, damage_,
+               {body.point.x, signed_volume_, conservative_ ? three_.data() : nullptr}, team,
+               scratch_, sums_.data());
+  }
   constexpr std::int64_t kSmall = 64;  // points: those at cracks are dear
   team.for_blocks((hood_.points + kSmall - 1) / kSmall, [&](std::int64_t block, int worker) {
     for (std::int64_t i = block * kSmall; i < std::min(hood_.points, (block + 1) * kSmall); ++i) {
@@ -375,7 +381,7 @@ Mat<3> ContinuumKinematicsPeridynamics::point_stress(const Body& body, std::int6
 }
 
 std::int64_t ContinuumKinematicsPeridynamics::bytes() const {
-  return Peridynamic::bytes() + cloud_.bytes() +
+  return Peridynamic::bytes() + cloud_.bytes() + lattice_.bytes() +
          static_cast<std::int64_t>((two_.capacity() + three_.capacity() + sums_.capacity()) *
                                    sizeof(double));
 }

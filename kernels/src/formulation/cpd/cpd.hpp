@@ -6,6 +6,7 @@
 
 #include "formulation/cpd/cloud_cliques.hpp"
 #include "formulation/cpd/hood_numbers.hpp"
+#include "formulation/cpd/lattice_cliques.hpp"
 #include "formulation/peridynamics/formulation.hpp"
 
 namespace cleave::cpd {
@@ -52,6 +53,7 @@ class ContinuumKinematicsPeridynamics final : public peridynamics::Peridynamic {
   std::vector<double> two_, three_;   // (n) C2 v V_H^2/N2u, C3 v V_H^3/N3u
   std::vector<double> sums_;          // (4,n) of the tetrahedra
   CloudCliques cloud_;
+  LatticeCliques lattice_;                    // active: instead of cloud_
   mutable std::vector<StarScratch> scratch_;  // of each worker
 };
 

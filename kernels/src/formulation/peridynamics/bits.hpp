@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 
 #include "core/lanes.hpp"
 
@@ -51,6 +52,17 @@ CLEAVE_INLINE double sum_of(const Lanes& a) {
   double l[kWide];
   std::memcpy(l, &a, sizeof l);
   return ((l[0] + l[1]) + (l[2] + l[3])) + ((l[4] + l[5]) + (l[6] + l[7]));
+}
+// |a| with the sign of b; a >= 0.
+CLEAVE_INLINE Lanes with_sign_of(const Lanes& a, const Lanes& b) {
+  constexpr int kNative = kWide < kNativeLanes ? kWide : kNativeLanes;
+  typedef std::int64_t Bits __attribute__((vector_size(8 * kNative)));
+  Lanes c;
+  for (int k = 0; k < Lanes::kRegisters; ++k) {
+    const Bits sign = reinterpret_cast<Bits>(b.r[k]) & std::numeric_limits<std::int64_t>::min();
+    c.r[k] = reinterpret_cast<Lanes::Register>(reinterpret_cast<Bits>(a.r[k]) | sign);
+  }
+  return c;
 }
 CLEAVE_INLINE Lanes load_lanes8(const double* from) {
   Lanes r;
