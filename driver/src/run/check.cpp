@@ -30,8 +30,8 @@ void say_bodies(const Scene& scene) {
     if (scene.model().find_field(body, "interactions")) {
       const std::vector<double> n = scene.model().reals(body, "interactions");
       say("  interactions: " + number(Index(std::llround(n[0]))) + " one-neighbour, " +
-          number(Index(std::llround(n[1]))) + " two-neighbour, " + number(Index(std::llround(n[2]))) +
-          " three-neighbour");
+          number(Index(std::llround(n[1]))) + " two-neighbour, " +
+          number(Index(std::llround(n[2]))) + " three-neighbour");
     }
     for (const NamedSet& set : scene.sets().of_body(body)) {
       say("  set " + in_quotes(set.name) + ": " + number(Index(set.particles.size())) +

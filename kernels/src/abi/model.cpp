@@ -193,8 +193,8 @@ int32_t cleave_body_volumes(cleave_model* model, int64_t body, int64_t count,
     Body& b = model->body(body);
     const auto list = span_of(volume, count, "volume");
     if (count != b.particles) {
-      throw Error(CLEAVE_BAD_ARGUMENT, text("count is ", count, "; ", b.label(), " has ", b.particles,
-                                            " particles, and each needs a volume"));
+      throw Error(CLEAVE_BAD_ARGUMENT, text("count is ", count, "; ", b.label(), " has ",
+                                            b.particles, " particles, and each needs a volume"));
     }
     for (int64_t i = 0; i < count; ++i) {
       const double v = list[static_cast<std::size_t>(i)];

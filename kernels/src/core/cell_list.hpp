@@ -20,7 +20,8 @@ enum class Radius { open, closed };
 struct NeighbourRows {
   std::vector<std::int32_t> row_begin;  // (n+1)
   std::vector<std::int32_t> neighbour;  // (h)
-  std::vector<std::int32_t> reverse;    // (h) place of (p,i) for the half-bond (i,p); empty if not wanted
+  std::vector<std::int32_t>
+      reverse;  // (h) place of (p,i) for the half-bond (i,p); empty if not wanted
 };
 enum class ReverseHalves { listed, left_out };
 

@@ -63,14 +63,10 @@ constexpr std::array kPeridynamicFields = {
 };
 
 std::vector<FieldOwner> make_field_owners() {
-  std::vector<FieldOwner> owners = {{"core", kCoreFields},
-                                    {"cbm", kCbmFields},
-                                    {"tlsph", kKernelMethodFields},
-                                    {"nosb", kKernelMethodFields},
-                                    {"fem", kFemFields},
-                                    {"bond_pd", kPeridynamicFields},
-                                    {"cpd", kPeridynamicFields},
-                                    {"lps", kPeridynamicFields}};
+  std::vector<FieldOwner> owners = {
+      {"core", kCoreFields},         {"cbm", kCbmFields},        {"tlsph", kKernelMethodFields},
+      {"nosb", kKernelMethodFields}, {"fem", kFemFields},        {"bond_pd", kPeridynamicFields},
+      {"cpd", kPeridynamicFields},   {"lps", kPeridynamicFields}};
   for (const auto& m : material_table()) owners.push_back({m.name, m.history});
   return owners;
 }
