@@ -113,18 +113,27 @@ struct Tetrahedra {
   }
 };
 
+CLEAVE_INLINE void cross(const double (&a)[3], const Lanes (&b)[3], Lanes (&r)[3]) {
+  for (int d = 0; d < 3; ++d) {
+    const int e = (d + 1) % 3, f = (d + 2) % 3;
+    r[d] = a[e] * b[f] - a[f] * b[e];
+  }
+}
+
 template <bool kSigned, bool kWeighted>
 void sum_cliques(const Star& star, double apex[4]) {
   const Star s = star;
+  const Lanes zero(0.0);
   for (std::int32_t k = 0; k < s.count + kWide; ++k) {
     for (int d = 0; d < 3; ++d) s.f[d][k] = 0;
     s.e[k] = 0;
   }
-  double apex_energy = 0;
+  for (std::int32_t r = 0; r < 4 * s.count; ++r) store_lanes8(zero, s.rows + kWide * r);
+  Lanes apex_energy = zero;
   for_pairs(s, [&](std::int32_t j, std::int32_t k, const std::uint64_t* row_j,
                    const std::uint64_t* row_k) {
     const Pair pair(s, j, k);
-    Lanes h[3] = {Lanes(0.0), Lanes(0.0), Lanes(0.0)}, energy(0.0);
+    Lanes h[3] = {zero, zero, zero}, energy = zero;
     double own = 0, weight_j = 0, weight_k = 0, both = 0;
     if constexpr (kWeighted) {
       const double dj = s.carries[j], dk = s.carries[k];
@@ -157,20 +166,26 @@ void sum_cliques(const Star& star, double apex[4]) {
         store_lanes8(load_lanes8(s.f[d] + l) - t.g * pair.p.c[d], s.f[d] + l);
       }
     });
-    const double H[3] = {sum_of(h[0]), sum_of(h[1]), sum_of(h[2])}, e = sum_of(energy);
-    const Vector on_j = cross(pair.b, H), on_k = cross(H, pair.a);
+    Lanes on_j[3], from_k[3];  // G_j, and minus G_k
+    cross(pair.b, h, on_j);
+    cross(pair.a, h, from_k);
+    double *rows_j = s.rows + 4 * kWide * j, *rows_k = s.rows + 4 * kWide * k;
     for (int d = 0; d < 3; ++d) {
-      s.f[d][j] -= on_j.c[d];
-      s.f[d][k] -= on_k.c[d];
+      store_lanes8(load_lanes8(rows_j + kWide * d) - on_j[d], rows_j + kWide * d);
+      store_lanes8(load_lanes8(rows_k + kWide * d) + from_k[d], rows_k + kWide * d);
     }
-    s.e[j] += e;
-    s.e[k] += e;
-    apex_energy += e;
+    store_lanes8(load_lanes8(rows_j + kWide * 3) + energy, rows_j + kWide * 3);
+    store_lanes8(load_lanes8(rows_k + kWide * 3) + energy, rows_k + kWide * 3);
+    apex_energy = apex_energy + energy;
   });
+  for (std::int32_t k = 0; k < s.count; ++k) {
+    for (int d = 0; d < 3; ++d) s.f[d][k] += sum_of(load_lanes8(s.rows + kWide * (4 * k + d)));
+    s.e[k] += sum_of(load_lanes8(s.rows + kWide * (4 * k + 3)));
+  }
   apex[0] = apex[1] = apex[2] = 0;
   for (std::int32_t k = 0; k < s.count; ++k)
     for (int d = 0; d < 3; ++d) apex[d] -= s.f[d][k];
-  apex[3] = apex_energy;
+  apex[3] = sum_of(apex_energy);
 }
 
 void cliques(const Star& s, double apex[4]) {
@@ -181,51 +196,76 @@ void cliques(const Star& s, double apex[4]) {
   }
 }
 
+// Lanes are added at the end, not for each pair.
 template <bool kSigned>
 void sum_apex(const Star& star, ApexSums& sums) {
   const Star s = star;
-  ApexSums r{};
+  const Lanes zero(0.0);
+  Lanes force[3] = {zero, zero, zero}, energy = zero, rate = zero;
   for_pairs(s, [&](std::int32_t j, std::int32_t k, const std::uint64_t* row_j,
                    const std::uint64_t* row_k) {
     const Pair pair(s, j, k);
-    Lanes h[3], h0[3], hv[3], total(0.0), energy(0.0);
-    for (int d = 0; d < 3; ++d) h[d] = h0[d] = hv[d] = Lanes(0.0);
+    Lanes h[3] = {zero, zero, zero}, hv[3] = {zero, zero, zero}, total = zero;
     for_common(s, k, row_j, row_k, [&](std::int32_t l, unsigned byte) {
       Tetrahedra t;
       t.template find<kSigned>(s, pair, l, byte);
       total = total + t.g;
-      energy = energy + 0.5 * (t.size * t.g * t.g);
+      energy = energy + t.size * t.g * t.g;
       for (int d = 0; d < 3; ++d) {
         h[d] = h[d] + t.g * t.c[d];
-        h0[d] = h0[d] + t.g * t.C[d];
         hv[d] = hv[d] + t.g * load_lanes8(s.velocity[d] + l);
       }
     });
-    const double H[3] = {sum_of(h[0]), sum_of(h[1]), sum_of(h[2])}, g = sum_of(total);
-    const Vector on_j = cross(pair.b, H), on_k = cross(H, pair.a);
-    r.energy += sum_of(energy);
+    Lanes on_j[3], from_k[3];  // G_j, and minus G_k
+    cross(pair.b, h, on_j);
+    cross(pair.a, h, from_k);
     for (int d = 0; d < 3; ++d) {
-      r.force[d] += on_j.c[d] + on_k.c[d] + g * pair.p.c[d];
-      r.rate +=
-          s.velocity[d][j] * on_j.c[d] + s.velocity[d][k] * on_k.c[d] + pair.p.c[d] * sum_of(hv[d]);
-      for (int m = 0; m < 3; ++m)
-        r.stress[3 * d + m] +=
-            on_j.c[d] * pair.A[m] + on_k.c[d] * pair.B[m] + pair.p.c[d] * sum_of(h0[m]);
+      force[d] = force[d] + (on_j[d] - from_k[d] + total * pair.p.c[d]);
+      rate =
+          rate + (s.velocity[d][j] * on_j[d] - s.velocity[d][k] * from_k[d] + pair.p.c[d] * hv[d]);
     }
   });
-  sums = r;
+  for (int d = 0; d < 3; ++d) sums.force[d] = sum_of(force[d]);
+  sums.energy = 0.5 * sum_of(energy);
+  sums.rate = sum_of(rate);
+}
+
+template <bool kSigned>
+void sum_stress(const Star& star, double stress[9]) {
+  const Star s = star;
+  const Lanes zero(0.0);
+  Lanes sum[9];
+  for (auto& component : sum) component = zero;
+  for_pairs(s, [&](std::int32_t j, std::int32_t k, const std::uint64_t* row_j,
+                   const std::uint64_t* row_k) {
+    const Pair pair(s, j, k);
+    Lanes h[3] = {zero, zero, zero}, h0[3] = {zero, zero, zero};
+    for_common(s, k, row_j, row_k, [&](std::int32_t l, unsigned byte) {
+      Tetrahedra t;
+      t.template find<kSigned>(s, pair, l, byte);
+      for (int d = 0; d < 3; ++d) {
+        h[d] = h[d] + t.g * t.c[d];
+        h0[d] = h0[d] + t.g * t.C[d];
+      }
+    });
+    Lanes on_j[3], from_k[3];
+    cross(pair.b, h, on_j);
+    cross(pair.a, h, from_k);
+    for (int d = 0; d < 3; ++d)
+      for (int m = 0; m < 3; ++m)
+        sum[3 * d + m] =
+            sum[3 * d + m] + (on_j[d] * pair.A[m] - from_k[d] * pair.B[m] + pair.p.c[d] * h0[m]);
+  });
+  for (int k = 0; k < 9; ++k) stress[k] = sum_of(sum[k]);
+}
+
+void stress_sums(const Star& s, double stress[9]) {
+  s.signed_volume ? sum_stress<true>(s, stress) : sum_stress<false>(s, stress);
 }
 
 CLEAVE_INLINE Lanes norm(const Lanes (&a)[3]) {
   return square_root(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
 }
-CLEAVE_INLINE void cross(const double (&a)[3], const Lanes (&b)[3], Lanes (&r)[3]) {
-  for (int d = 0; d < 3; ++d) {
-    const int e = (d + 1) % 3, f = (d + 2) % 3;
-    r[d] = a[e] * b[f] - a[f] * b[e];
-  }
-}
-
 void numbers(const Star& star, StarNumbers& numbers) {
   const Star s = star;
   StarNumbers r{};
@@ -264,7 +304,7 @@ void apex_sums(const Star& s, ApexSums& sums) {
 }  // namespace cpd
 
 extern const cleave_call::CliqueKernels kCliqueKernels;
-constinit const cleave_call::CliqueKernels kCliqueKernels = {&cpd::relate, &cpd::cliques,
-                                                             &cpd::apex_sums, &cpd::numbers};
+constinit const cleave_call::CliqueKernels kCliqueKernels = {
+    &cpd::relate, &cpd::cliques, &cpd::apex_sums, &cpd::stress_sums, &cpd::numbers};
 
 }  // namespace cleave

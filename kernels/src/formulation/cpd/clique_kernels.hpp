@@ -24,9 +24,11 @@ struct Star {
   // Filled by `relate`: positions relative to the apex, and for j the k > j within the horizon of j.
   double *C[3], *c[3];
   std::uint64_t* adjacent;
-  // Set by `cliques`: - sum of g G_m and sum of 1/2 |V| g^2 at each neighbour.
+  // Set by `cliques`: - sum of g G_m and sum of 1/2 |V| g^2 at each neighbour; scratch of four rows of eight
+  // for each.
   double* f[3];
   double* e;
+  double* rows;
   // Conservative weights only: W of the apex and of the neighbours, the apex's bonds that carry as 0 or 1,
   // and the adjacent pairs whose bond carries. NULL: plain sums.
   const double* weight;
@@ -38,10 +40,9 @@ struct Star {
 };
 
 struct ApexSums {
-  double force[3];   // - sum of g G_i
-  double energy;     // sum of 1/2 |V| g^2
-  double rate;       // sum of g dv/dt: its rate
-  double stress[9];  // sum of g (G_j (x) X_ij + G_k (x) X_ik + G_l (x) X_il), row by row
+  double force[3];  // - sum of g G_i
+  double energy;    // sum of 1/2 |V| g^2
+  double rate;      // sum of g dv/dt: its rate
 };
 
 // Of the tetrahedra at an apex, in the reference.
@@ -56,6 +57,8 @@ struct CliqueKernels {
   // All tetrahedra of the star, each once; [out] the four numbers of the apex.
   void (*cliques)(const Star&, double apex[4]);
   void (*apex)(const Star&, ApexSums&);
+  // sum of g (G_j (x) X_ij + G_k (x) X_ik + G_l (x) X_il), row by row
+  void (*stress)(const Star&, double stress[9]);
   void (*numbers)(const Star&, StarNumbers&);
 };
 

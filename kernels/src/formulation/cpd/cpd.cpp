@@ -307,16 +307,20 @@ void ContinuumKinematicsPeridynamics::add_tetrahedra(Body& body, ThreadTeam& tea
   });
 }
 
-ApexSums ContinuumKinematicsPeridynamics::tetrahedra_at(const Body& body, std::int64_t i,
-                                                        int worker) const {
+const Star* ContinuumKinematicsPeridynamics::carrying_star(const Body& body, std::int64_t i,
+                                                           int worker) const {
   StarScratch& scratch = scratch_[static_cast<std::size_t>(worker)];
   scratch.list.clear();
   for_carrying(i, [&](std::int32_t p, std::int32_t) { scratch.list.push_back(p); });
+  if (scratch.list.size() < 3) return nullptr;
+  return &scratch.lay(hood_, i, scratch.list, body.point.x, body.point.v, signed_volume_);
+}
+
+ApexSums ContinuumKinematicsPeridynamics::tetrahedra_at(const Body& body, std::int64_t i,
+                                                        int worker) const {
   ApexSums sums{};
-  if (scratch.list.size() < 3) return sums;
-  const Star& star =
-      scratch.lay(hood_, i, scratch.list, body.point.x, body.point.v, signed_volume_);
-  CLEAVE_KERNELS(kCliqueKernels).chosen().apex(star, sums);
+  if (const Star* star = carrying_star(body, i, worker))
+    CLEAVE_KERNELS(kCliqueKernels).chosen().apex(*star, sums);
   return sums;
 }
 
@@ -370,10 +374,12 @@ Mat<3> ContinuumKinematicsPeridynamics::point_stress(const Body& body, std::int6
     });
   }
   if (!three_.empty()) {
-    const ApexSums s = tetrahedra_at(body, i, worker);
+    double sums[9] = {};
+    if (const Star* star = carrying_star(body, i, worker))
+      CLEAVE_KERNELS(kCliqueKernels).chosen().stress(*star, sums);
     const double w = 0.25 * three_[static_cast<std::size_t>(i)];
     for (int r = 0; r < 3; ++r)
-      for (int c = 0; c < 3; ++c) stress(r, c) += w * s.stress[3 * r + c];
+      for (int c = 0; c < 3; ++c) stress(r, c) += w * sums[3 * r + c];
   }
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 3; ++c) stress(r, c) /= hood_.volume[i];

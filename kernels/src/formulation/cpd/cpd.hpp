@@ -38,6 +38,8 @@ class ContinuumKinematicsPeridynamics final : public peridynamics::Peridynamic {
   void add_tetrahedra(Body& body, ThreadTeam& team);
   // The tetrahedra at a point whose three bonds carry, by themselves.
   ApexSums tetrahedra_at(const Body& body, std::int64_t i, int worker) const;
+  // The star of the bonds of a point that carry; nullptr if it has no tetrahedron.
+  const Star* carrying_star(const Body& body, std::int64_t i, int worker) const;
   // f(triangle, weight) for the triangles at i that carry; weight is that of the force on i.
   template <class F>
   void for_triangles(const double* x, std::int64_t i, const F& f) const;

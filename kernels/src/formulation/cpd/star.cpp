@@ -35,6 +35,7 @@ void StarScratch::expect(std::int32_t most) {
   const std::size_t words = stride_ / 64 + 1;
   adjacent_.assign(words * stride_ + 1, 0);
   carrying_.assign(words * stride_ + 1, 0);
+  rows_.assign(4 * 8 * stride_, 0.0);
   list.reserve(stride_);
 }
 
@@ -67,6 +68,7 @@ const Star& StarScratch::lay(const peridynamics::Neighbourhood& hood, std::int64
     std::fill_n(velocity + points.size(), kSpare, 0.0);
   }
   s.e = array(kEnergy);
+  s.rows = rows_.data();
   s.adjacent = adjacent_.data();
   s.square_limit = hood.square_limit;
   s.flat = kFlat * hood.horizon * hood.horizon * hood.horizon;

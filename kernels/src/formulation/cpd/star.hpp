@@ -37,6 +37,7 @@ class StarScratch {
   Star star_{};
   std::size_t stride_ = 0;
   AlignedReals reals_;  // arrays of stride_ numbers
+  AlignedReals rows_;   // four rows of eight for each neighbour
   std::vector<std::uint64_t> adjacent_, carrying_;
 };
 
