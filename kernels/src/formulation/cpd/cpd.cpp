@@ -1,6 +1,8 @@
 #include "formulation/cpd/cpd.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "core/instruction_set.hpp"
 #include "formulation/cpd/lattice.hpp"
@@ -148,6 +150,7 @@ void ContinuumKinematicsPeridynamics::prepare(Body& body) {
   expect_workers(1);
   if (constants_.three != 0) {
     sums_.assign(static_cast<std::size_t>(4 * hood_.points), 0.0);
+    damaged_.reserve(left_.size());
     const Lattice lattice = use_lattice_ && !conservative_ ? find_lattice(hood_) : Lattice{};
     if (!lattice.found() || !lattice_.setup(hood_, lattice, signed_volume_)) cloud_.setup(hood_);
   }
@@ -283,6 +286,16 @@ void ContinuumKinematicsPeridynamics::add_triangles(Body& body, ThreadTeam& team
 void ContinuumKinematicsPeridynamics::add_tetrahedra(Body& body, ThreadTeam& team) {
   if (lattice_.active()) {
     lattice_.sum(body.point.u, team, sums_.data());
+    damaged_.clear();
+    for (std::int64_t i = 0; i < hood_.points; ++i)
+      if (!damage_.whole(i)) damaged_.push_back(static_cast<std::int32_t>(i));
+    const auto count = static_cast<std::int64_t>(damaged_.size());
+    team.for_blocks((count + 7) / 8, [&](std::int64_t block, int worker) {
+      const auto first = static_cast<std::size_t>(8 * block);
+      const std::span<const std::int32_t> points(damaged_.data() + first,
+                                                 std::min<std::size_t>(8, damaged_.size() - first));
+      lattice_.sum_by_itself(hood_, damage_, points, body.point.u, worker, sums_.data());
+    });
   } else {
     cloud_.sum(hood_, damage_,
                {body.point.x, signed_volume_, conservative_ ? three_.data() : nullptr}, team,
@@ -296,7 +309,7 @@ void ContinuumKinematicsPeridynamics::add_tetrahedra(Body& body, ThreadTeam& tea
       Vec<3> force;
       double energy = conservative_ ? s[3] : 0.25 * w * s[3];
       for (int k = 0; k < 3; ++k) force[k] = w * s[k];
-      if (!conservative_ && !damage_.whole(i)) {
+      if (!conservative_ && !lattice_.active() && !damage_.whole(i)) {
         const ApexSums own = tetrahedra_at(body, i, worker);
         for (int k = 0; k < 3; ++k) force[k] = w * own.force[k];
         energy = 0.25 * w * own.energy;

@@ -50,10 +50,11 @@ class ContinuumKinematicsPeridynamics final : public peridynamics::Peridynamic {
   Constants constants_;
   peridynamics::HoodVolume hood_form_ = peridynamics::HoodVolume::sum;
   bool conservative_ = false, signed_volume_ = false;
-  double full_count_ = 0;             // neighbours of a full lattice neighbourhood, form sphere
-  std::vector<HoodNumbers> numbers_;  // until set-up is done
-  std::vector<double> two_, three_;   // (n) C2 v V_H^2/N2u, C3 v V_H^3/N3u
-  std::vector<double> sums_;          // (4,n) of the tetrahedra
+  double full_count_ = 0;              // neighbours of a full lattice neighbourhood, form sphere
+  std::vector<HoodNumbers> numbers_;   // until set-up is done
+  std::vector<double> two_, three_;    // (n) C2 v V_H^2/N2u, C3 v V_H^3/N3u
+  std::vector<double> sums_;           // (4,n) of the tetrahedra
+  std::vector<std::int32_t> damaged_;  // points with a broken bond, lattices only
   CloudCliques cloud_;
   LatticeCliques lattice_;                    // active: instead of cloud_
   mutable std::vector<StarScratch> scratch_;  // of each worker

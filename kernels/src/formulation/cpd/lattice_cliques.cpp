@@ -64,11 +64,15 @@ bool LatticeCliques::setup(const peridynamics::Neighbourhood& hood, const Lattic
   point_.assign(static_cast<std::size_t>(shape_[0]) * static_cast<std::size_t>(shape_[1]) *
                     static_cast<std::size_t>(shape_[2]),
                 -1);
+  cell_.resize(static_cast<std::size_t>(hood.points));
   for (std::int64_t i = 0; i < hood.points; ++i) {
     std::size_t place = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      cell_[static_cast<std::size_t>(i)][k] =
+          lattice.cell[static_cast<std::size_t>(3 * i) + axis_[k]];
     for (std::size_t k = 3; k-- > 0;)
       place = place * static_cast<std::size_t>(shape_[k]) +
-              static_cast<std::size_t>(lattice.cell[static_cast<std::size_t>(3 * i) + axis_[k]]);
+              static_cast<std::size_t>(cell_[static_cast<std::size_t>(i)][k]);
     point_[place] = static_cast<std::int32_t>(i);
   }
   if (!list_shapes(limit)) {
@@ -79,36 +83,62 @@ bool LatticeCliques::setup(const peridynamics::Neighbourhood& hood, const Lattic
   return true;
 }
 
-bool LatticeCliques::list_shapes(double limit) {
-  members_ = cells_ahead(reach_, limit);
-  if (members_.size() > std::numeric_limits<std::uint16_t>::max()) return false;
+bool LatticeCliques::ShapeList::make(std::vector<Cell> cells, double limit) {
+  members = std::move(cells);
+  if (members.size() > std::numeric_limits<std::uint16_t>::max()) return false;
   const auto near = [&](std::size_t a, std::size_t b) {
-    return square_distance(members_[a], members_[b]) < limit;
+    return square_distance(members[a], members[b]) < limit;
   };
-  for (std::size_t a = 0; a < members_.size(); ++a)
-    for (std::size_t b = a + 1; b < members_.size(); ++b) {
+  for (std::size_t a = 0; a < members.size(); ++a)
+    for (std::size_t b = a + 1; b < members.size(); ++b) {
       if (!near(a, b)) continue;
-      const auto first = static_cast<std::int32_t>(thirds_.size());
-      for (std::size_t c = b + 1; c < members_.size(); ++c) {
-        const std::int32_t V = volume_of(members_[a], members_[b], members_[c]);
+      const auto first = static_cast<std::int32_t>(thirds.size());
+      for (std::size_t c = b + 1; c < members.size(); ++c) {
+        const std::int32_t V = volume_of(members[a], members[b], members[c]);
         if (V == 0 || !near(a, c) || !near(b, c)) continue;
-        thirds_.push_back({static_cast<std::uint16_t>(c), static_cast<std::int16_t>(V)});
-        largest_volume_ = std::max(largest_volume_, std::abs(V));
+        if (std::abs(V) > std::numeric_limits<std::int16_t>::max()) return false;
+        thirds.push_back({static_cast<std::uint16_t>(c), static_cast<std::int16_t>(V)});
       }
-      const auto last = static_cast<std::int32_t>(thirds_.size());
+      const auto last = static_cast<std::int32_t>(thirds.size());
       if (last > first)
-        pairs_.push_back(
+        pairs.push_back(
             {static_cast<std::uint16_t>(a), static_cast<std::uint16_t>(b), first, last});
-      if (thirds_.size() > kMostThirds) return false;
+      if (thirds.size() > kMostThirds) return false;
     }
+  return !thirds.empty();
+}
+
+bool LatticeCliques::list_shapes(double limit) {
+  const std::vector<Cell> ahead = cells_ahead(reach_, limit);
+  std::vector<Cell> all = ahead;
+  for (const Cell& c : ahead) all.push_back({-c[0], -c[1], -c[2]});
+  if (!ahead_.make(ahead, limit) || !around_.make(all, limit)) return false;
+  for (const ShapeThird& third : around_.thirds)
+    largest_volume_ = std::max(largest_volume_, std::abs(std::int32_t{third.volume}));
   for (std::int32_t V = -largest_volume_; V <= largest_volume_; ++V) {
     volume_.push_back(V);
     inverse_.push_back(V == 0 ? 0.0 : 1.0 / std::abs(V));
   }
   // Every tile is as wide as the widest, with rows outside of the body.
-  for (const Cell& c : members_)
+  for (const Cell& c : ahead)
     distance_.push_back((c[2] * (kMiddles + 2 * reach_) + c[1]) * width_ + c[0]);
-  return !thirds_.empty() && largest_volume_ <= std::numeric_limits<std::int16_t>::max();
+  member_at_.assign(static_cast<std::size_t>(side() * side() * side()), -1);
+  for (std::size_t m = 0; m < all.size(); ++m)
+    member_at_[place_of(all[m])] = static_cast<std::int32_t>(m);
+  return true;
+}
+
+std::size_t LatticeCliques::place_of(const Cell& c) const {
+  return static_cast<std::size_t>(((c[2] + reach_) * side() + c[1] + reach_) * side() + c[0] +
+                                  reach_);
+}
+
+Shapes LatticeCliques::shapes_of(const ShapeList& list) const {
+  return {distance_.data(),   static_cast<std::int32_t>(list.members.size()),
+          list.pairs.data(),  static_cast<std::int32_t>(list.pairs.size()),
+          list.thirds.data(), volume_.data(),
+          inverse_.data(),    largest_volume_,
+          signed_volume_};
 }
 
 void LatticeCliques::make_tiles() {
@@ -170,7 +200,8 @@ void LatticeCliques::sort_eights(Tile& tile) const {
         for (std::int32_t f = first; f < first + kEight; ++f) {
           const bool here = point_at(f, m, s) >= 0;
           any = any || here;
-          full = full && here && std::all_of(members_.begin(), members_.end(), [&](const Cell& c) {
+          full = full && here &&
+                 std::all_of(ahead_.members.begin(), ahead_.members.end(), [&](const Cell& c) {
                    return point_at(f + c[0], m + c[1], s + c[2]) >= 0;
                  });
         }
@@ -204,11 +235,7 @@ void LatticeCliques::sum_tile(Tile& tile, const double* u, Scratch& scratch) con
   for (auto& along : tile.f) std::fill(along.begin(), along.end(), 0.0);
   std::fill(tile.e.begin(), tile.e.end(), 0.0);
   take_places(tile, u, scratch);
-  const Shapes shapes{distance_.data(), static_cast<std::int32_t>(members_.size()),
-                      pairs_.data(),    static_cast<std::int32_t>(pairs_.size()),
-                      thirds_.data(),   volume_.data(),
-                      inverse_.data(),  largest_volume_,
-                      signed_volume_};
+  const Shapes shapes = shapes_of(ahead_);
   const LatticeTile arrays{{scratch.x[0].data(), scratch.x[1].data(), scratch.x[2].data()},
                            scratch.there.data(),
                            {tile.f[0].data(), tile.f[1].data(), tile.f[2].data()},
@@ -231,7 +258,8 @@ void LatticeCliques::expect_workers(int workers) {
     Scratch& s = scratch_.emplace_back();
     for (auto& along : s.x) along.assign(tiles_.front().e.size(), 0.0);
     s.there.assign(tiles_.front().e.size(), 0.0);
-    s.bench.assign(64 * members_.size(), 0.0);
+    s.bench.assign(64 * ahead_.members.size(), 0.0);
+    s.around.assign(32 * (around_.members.size() + 1), 0.0);
   }
 }
 
@@ -262,13 +290,47 @@ void LatticeCliques::sum(const double* u, ThreadTeam& team, double* sums) {
   });
 }
 
+void LatticeCliques::sum_by_itself(const peridynamics::Neighbourhood& hood,
+                                   const peridynamics::Damage& damage,
+                                   std::span<const std::int32_t> points, const double* u,
+                                   int worker, double* sums) {
+  AlignedReals& bench = scratch_[static_cast<std::size_t>(worker)].around;
+  std::fill(bench.begin(), bench.end(), 0.0);
+  const double inverse = 1 / spacing_;
+  for (std::size_t l = 0; l < points.size(); ++l) {
+    const std::int64_t i = points[l];
+    const Cell& own = cell_[static_cast<std::size_t>(i)];
+    for (std::int32_t b = hood.first(i); b < hood.last(i); ++b) {
+      if (!damage.intact(b)) continue;
+      const std::int32_t p = hood.neighbour(b);
+      Cell step = cell_[static_cast<std::size_t>(p)];
+      for (std::size_t k = 0; k < 3; ++k) step[k] -= own[k];
+      double* to = bench.data() + 32 * member_at_[place_of(step)] + l;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto c = static_cast<std::int64_t>(axis_[k]);
+        to[kEight * k] = step[k] + (u[kVector * p + c] - u[kVector * i + c]) * inverse;
+      }
+      to[kEight * 3] = 1;
+    }
+  }
+  double* found = bench.data() + 32 * around_.members.size();
+  CLEAVE_KERNELS(kLatticeKernels).chosen().around(shapes_of(around_), bench.data(), found);
+  const double area = spacing_ * spacing_;
+  for (std::size_t l = 0; l < points.size(); ++l) {
+    double* to = sums + 4 * static_cast<std::int64_t>(points[l]);
+    for (std::size_t k = 0; k < 3; ++k) to[axis_[k]] = area * found[kEight * k + l];
+    to[3] = 0.5 * area * spacing_ * found[kEight * 3 + l];
+  }
+}
+
 std::int64_t LatticeCliques::bytes() const {
   std::size_t bytes = point_.capacity() * sizeof(std::int32_t) +
-                      thirds_.capacity() * sizeof(ShapeThird) + parts_.capacity() * sizeof(Part);
+                      (ahead_.thirds.capacity() + around_.thirds.capacity()) * sizeof(ShapeThird) +
+                      cell_.capacity() * sizeof(Cell) + parts_.capacity() * sizeof(Part);
   for (const Tile& tile : tiles_)
     bytes += 4 * tile.e.capacity() * sizeof(double) + tile.eights.capacity();
   for (const Scratch& s : scratch_)
-    bytes += (4 * s.there.capacity() + s.bench.capacity()) * sizeof(double);
+    bytes += (4 * s.there.capacity() + s.bench.capacity() + s.around.capacity()) * sizeof(double);
   return static_cast<std::int64_t>(bytes);
 }
 

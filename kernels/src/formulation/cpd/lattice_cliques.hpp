@@ -8,12 +8,14 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/aligned.hpp"
 #include "core/thread_team.hpp"
 #include "formulation/cpd/lattice.hpp"
 #include "formulation/cpd/lattice_kernels.hpp"
+#include "formulation/peridynamics/damage.hpp"
 
 namespace cleave::cpd {
 
@@ -23,11 +25,15 @@ class LatticeCliques {
   bool setup(const peridynamics::Neighbourhood& hood, const Lattice& lattice, bool signed_volume);
   bool active() const { return !tiles_.empty(); }
   // Tetrahedra that a point with all its neighbours is the first of.
-  std::int64_t shapes() const { return static_cast<std::int64_t>(thirds_.size()); }
+  std::int64_t shapes() const { return static_cast<std::int64_t>(ahead_.thirds.size()); }
 
   void expect_workers(int workers);
   // [in] u (3,n) displacement [m]   [out] sums (4,n): - sum of g G_i [m2], sum of 1/2 |V| g^2 [m3]
   void sum(const double* u, ThreadTeam& team, double* sums);
+  // Sets the sums of the listed points, eight or fewer, by themselves: with the bonds that carry only.
+  void sum_by_itself(const peridynamics::Neighbourhood& hood, const peridynamics::Damage& damage,
+                     std::span<const std::int32_t> points, const double* u, int worker,
+                     double* sums);
   std::int64_t bytes() const;
 
  private:
@@ -41,15 +47,25 @@ class LatticeCliques {
     std::int32_t tile, row;
   };
   struct Scratch {
-    AlignedReals x[3], there, bench;
+    AlignedReals x[3], there, bench, around;
+  };
+  // Members, and the shapes that they make with the first point.
+  struct ShapeList {
+    std::vector<Cell> members;
+    std::vector<ShapePair> pairs;
+    std::vector<ShapeThird> thirds;
+    bool make(std::vector<Cell> cells, double limit);
   };
 
   bool list_shapes(double limit);
+  Shapes shapes_of(const ShapeList& list) const;
   void make_tiles();
   void sort_eights(Tile& tile) const;
   void take_places(const Tile& tile, const double* u, Scratch& scratch) const;
   void sum_tile(Tile& tile, const double* u, Scratch& scratch) const;
   std::int32_t point_at(std::int32_t fast, std::int32_t middle, std::int32_t slow) const;
+  std::int32_t side() const { return 2 * reach_ + 1; }
+  std::size_t place_of(const Cell& from_point) const;  // in member_at_
   Cell row_start(const Tile& tile, std::int32_t row) const;
   std::int64_t local_rows(const Tile& tile) const;
 
@@ -57,12 +73,12 @@ class LatticeCliques {
   bool signed_volume_ = false;
   std::array<std::size_t, 3> axis_{};  // the longest axis of the lattice is the fast one
   Cell shape_{};
-  std::int32_t reach_ = 0, width_ = 0;  // cells; row length with what it reaches
-  std::vector<std::int32_t> point_;     // of each cell, or -1
-  std::vector<Cell> members_;           // of all shapes, from the first point
-  std::vector<std::int32_t> distance_;  // the same in the arrays of a tile
-  std::vector<ShapePair> pairs_;
-  std::vector<ShapeThird> thirds_;
+  std::int32_t reach_ = 0, width_ = 0;   // cells; row length with what it reaches
+  std::vector<std::int32_t> point_;      // of each cell, or -1
+  std::vector<Cell> cell_;               // of each point
+  ShapeList ahead_, around_;             // of later points, in the order of cells; of all
+  std::vector<std::int32_t> distance_;   // of the members ahead in the arrays of a tile
+  std::vector<std::int32_t> member_at_;  // around, by cell from the point: slow, middle, fast
   std::vector<double> volume_, inverse_;
   std::int32_t largest_volume_ = 0;
   std::vector<Tile> tiles_;

@@ -125,10 +125,53 @@ void eight(const Shapes& given, const LatticeTile& tile, std::int64_t at, bool f
   collect(shapes, tile, at, energy, bench);
 }
 
+template <bool kSigned>
+void sum_around(const Shapes& given, const double* bench, double* sums) {
+  constexpr std::int64_t kBond = 4 * kWide;  // of a member on this bench
+  const Shapes shapes = given;
+  const double* volumes = shapes.volume + shapes.offset;
+  const double* inverses = shapes.inverse + shapes.offset;
+  Lanes fx(0.0), fy(0.0), fz(0.0), energy(0.0);
+  for (const ShapePair* pair = shapes.pairs; pair != shapes.pairs + shapes.pair_count; ++pair) {
+    const double *at_a = bench + kBond * pair->a, *at_b = bench + kBond * pair->b;
+    const Place a(at_a), b(at_b);
+    const Lanes carry = load_lanes8(at_a + 3 * kWide) * load_lanes8(at_b + 3 * kWide);
+    const Lanes px = a.y * b.z - a.z * b.y, py = a.z * b.x - a.x * b.z, pz = a.x * b.y - a.y * b.x;
+    Lanes hx(0.0), hy(0.0), hz(0.0), total(0.0), stored(0.0);
+    for (const ShapeThird* third = shapes.thirds + pair->first; third != shapes.thirds + pair->last;
+         ++third) {
+      const double* at_c = bench + kBond * third->member;
+      const Place c(at_c);
+      const Lanes v = px * c.x + py * c.y + pz * c.z;
+      const double V = volumes[third->volume];
+      const Lanes change = kSigned ? v - V : v - with_sign_of(Lanes(std::fabs(V)), v);
+      const Lanes g = load_lanes8(at_c + 3 * kWide) * (inverses[third->volume] * change);
+      hx = hx + g * c.x;
+      hy = hy + g * c.y;
+      hz = hz + g * c.z;
+      total = total + g;
+      stored = stored + g * change;
+    }
+    fx = fx + carry * ((b.y * hz - b.z * hy) + (hy * a.z - hz * a.y) + total * px);
+    fy = fy + carry * ((b.z * hx - b.x * hz) + (hz * a.x - hx * a.z) + total * py);
+    fz = fz + carry * ((b.x * hy - b.y * hx) + (hx * a.y - hy * a.x) + total * pz);
+    energy = energy + carry * stored;
+  }
+  store_lanes8(fx, sums);
+  store_lanes8(fy, sums + kWide);
+  store_lanes8(fz, sums + 2 * kWide);
+  store_lanes8(energy, sums + 3 * kWide);
+}
+
+void around(const Shapes& shapes, const double* bench, double* sums) {
+  shapes.signed_volume ? sum_around<true>(shapes, bench, sums)
+                       : sum_around<false>(shapes, bench, sums);
+}
+
 }  // namespace
 }  // namespace cpd
 
 extern const cleave_call::LatticeKernels kLatticeKernels;
-constinit const cleave_call::LatticeKernels kLatticeKernels = {&cpd::eight};
+constinit const cleave_call::LatticeKernels kLatticeKernels = {&cpd::eight, &cpd::around};
 
 }  // namespace cleave

@@ -46,6 +46,10 @@ struct LatticeKernels {
   // Eight points from `at` on; full: all members of all eight are there. bench: eight rows of eight a member,
   // on a cache line.
   void (*eight)(const Shapes&, const LatticeTile&, std::int64_t at, bool full, double* bench);
+  // The sums of eight points, anywhere, from the shapes around a point of which it is the first, whatever the
+  // order of the others. bench: four rows of eight a member: its place from the point, 1 or 0: the bond to it
+  // carries, else place 0. [out] sums: four rows of eight: - sum of g G_i, sum of |V| g^2
+  void (*around)(const Shapes&, const double* bench, double* sums);
 };
 
 }  // namespace cleave_call
