@@ -124,6 +124,31 @@ class OrderedSums {
       }
     });
   }
+  // Energy of the linear peridynamic solid with the bonds that carry, m of all bonds.
+  double state_based_energy(double K, double mu) const {
+    double energy = 0;
+    for (std::size_t i = 0; i < n_; ++i) {
+      double m = 0, theta = 0, deviatoric = 0;
+      const auto for_bonds = [&](const auto& f) {
+        for (std::size_t j = 0; j < n_; ++j) {
+          if (!near(i, j)) continue;
+          const double L = norm(cloud_.X[j] - cloud_.X[i]);
+          f(L, norm(x_[j] - x_[i]) - L, horizon_ / L * cloud_.volume[j], carries(i, j));
+        }
+      };
+      for_bonds([&](double L, double e, double w, bool carries_bond) {
+        m += w * L * L;
+        if (carries_bond) theta += 3 * w * L * e;
+      });
+      theta /= m;
+      for_bonds([&](double L, double e, double w, bool carries_bond) {
+        const double part = e - theta * L / 3;
+        if (carries_bond) deviatoric += w * part * part;
+      });
+      energy += cloud_.volume[i] * (0.5 * K * theta * theta + 7.5 * mu / m * deviatoric);
+    }
+    return energy;
+  }
 
  private:
   bool near(std::size_t i, std::size_t j) const {
