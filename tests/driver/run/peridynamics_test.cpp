@@ -112,6 +112,25 @@ TEST_F(Peridynamics, NotchesTakeParticlesOut) {
   }
 }
 
+TEST_F(Peridynamics, BodiesOfSeveralMethodsAndMaterialsRunTogether) {
+  std::string deck = "&lattice type='square' spacing=1 size=8,6,0 points='centres' /\n" +
+                     kMaterial +
+                     "&material name='stiff' law='linear_elastic' E=5 nu=0.3 rho=2 /\n"
+                     "&lattice name='mesh of triangles' type='square' spacing=1 size=8,6,0 /\n"
+                     "&body name='triangles' mesh='mesh of triangles' translate=0,20,0 "
+                     "kinematics='plane_strain' material='unit' /\n&initial velocity=0.01,0,0 /\n";
+  for (const std::string method : {"bond_pd", "cpd", "lps"}) {
+    deck += "&body name='" + method + "' formulation='" + method +
+            "' kinematics='plane_strain' material='" + (method == "bond_pd" ? "unit" : "stiff") +
+            "' /\n&peridynamics body='" + method + "' horizon=2.2 /\n";
+  }
+  ASSERT_EQ(run("t_end=3", deck), 0);
+  const auto h = read_history(path("case.history.csv"));
+  // Masses 48 + 2 x 96 + 48 move on as they are.
+  EXPECT_NEAR(h.at("momentum_x").back(), 0.01 * (48 + 96 + 96 + 48), 1e-12);
+  EXPECT_NEAR(h.at("elastic").back(), 0, 1e-20);
+}
+
 // Bonds, crossing ones included, as printed in the paper; crossing ones from an independent count.
 TEST_F(Peridynamics, PlaneCutsTheBondsThatCrossIt) {
   const Scene made = scene(

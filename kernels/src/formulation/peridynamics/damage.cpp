@@ -58,9 +58,12 @@ void Damage::rebuild() {
   std::fill(bits_.begin(), bits_.end(), ~std::uint64_t{0});
   for (std::int64_t i = 0; i < hood_->points; ++i)
     intact_[static_cast<std::size_t>(i)] = hood_->count(i);
+  counts_ = {hood_->bonds(), 0, 0};
   hood_->for_bonds(0, hood_->bonds(),
                    [&](std::int32_t bond, std::int64_t i, std::int32_t p, std::int32_t half) {
                      if (status_[bond] == kIntact) return;
+                     --counts_[kIntact];
+                     ++counts_[status_[bond] == kBroken ? kBroken : kCut];
                      clear(i, half);
                      clear(p, hood_->find_half(p, i));
                    });
@@ -91,6 +94,8 @@ void Damage::find(const double* x, const std::vector<char>& flag,
 }
 
 void Damage::mark(std::int32_t bond, Status status) {
+  --counts_[static_cast<std::size_t>(status_[bond])];
+  ++counts_[static_cast<std::size_t>(status)];
   status_[bond] = status;
   const std::int64_t i = hood_->first_end(bond);
   const auto half = static_cast<std::int32_t>(hood_->upper(i) + bond -
@@ -98,10 +103,6 @@ void Damage::mark(std::int32_t bond, Status status) {
   const std::int32_t p = hood_->neighbour(half);
   clear(i, half);
   clear(p, hood_->find_half(p, i));
-}
-
-std::int64_t Damage::count(Status status) const {
-  return std::count(status_, status_ + hood_->bonds(), static_cast<std::int32_t>(status));
 }
 
 std::int64_t Damage::bytes() const {

@@ -3,6 +3,7 @@
 //                                                                                     [PD damage, 12, 13]
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -35,7 +36,8 @@ class Damage {
   // the points with a candidate among the bonds to higher neighbours.
   void find(const double* x, const std::vector<char>& flag, std::vector<std::int32_t>& found) const;
   void mark(std::int32_t bond, Status status);
-  std::int64_t count(Status status) const;
+  // Bonds of a status.
+  std::int64_t count(Status status) const { return counts_[static_cast<std::size_t>(status)]; }
   std::int64_t bytes() const;
 
  private:
@@ -49,6 +51,7 @@ class Damage {
   std::vector<std::uint64_t> bits_;   // 1: the half-bond carries; one word more than needed
   std::vector<std::int32_t> intact_;  // (n) bonds that carry
   std::vector<char> shield_;  // (n) 1: in a zone without failure, 2: driven in every direction
+  std::array<std::int64_t, 3> counts_{};  // by status
   double limit_ = -1;
 };
 

@@ -146,7 +146,11 @@ void Peridynamic::break_bonds(Body& body, const Clock& clock, ThreadTeam& team) 
     kernels().stretched(arrays, first, last, limit, flag_.data() + first);
   });
   damage_.find(body.point.x, flag_, broken_);
-  if (broken_.empty()) return;
+  if (!broken_.empty()) break_found(body, clock, team);
+}
+
+// Breaks the bonds of broken_.
+void Peridynamic::break_found(Body& body, const Clock& clock, ThreadTeam& team) {
   touched_.clear();
   share_.clear();
   for (const std::int32_t bond : broken_) {

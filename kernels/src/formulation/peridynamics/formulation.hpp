@@ -96,6 +96,7 @@ class Peridynamic : public Formulation {
  private:
   void refuse_groups(const Body& body) const;
   void take_positions(const Body& body, ThreadTeam& team);
+  void break_found(Body& body, const Clock& clock, ThreadTeam& team);
   void release(Body& body, const Clock& clock, ThreadTeam& team, double sign);
   void record_events(Body& body, const Clock& clock);
   Mat<3> fitted_gradient(const Body& body, std::int64_t i) const;

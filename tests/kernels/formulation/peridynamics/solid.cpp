@@ -244,6 +244,49 @@ TEST(PeridynamicSolid, ZonesAndDrivenPointsDoNotFail) {
   EXPECT_GT(outside, 20);
 }
 
+TEST(PeridynamicSolid, BadCloudsAreRefusedWithNumbersAndRemedy) {
+  const Cloud good = lattice_cloud(6, 5, 4, 0.1);
+  const auto answer = [](const Cloud& cloud, const std::vector<Setting>& settings, double nu) {
+    std::string refusal;
+    CloudBody(CLEAVE_FORMULATION_cpd, CLEAVE_3D, cloud, settings, nu, refusal);
+    return refusal;
+  };
+  const auto says = [&](const std::string& text, const std::string& part) {
+    EXPECT_NE(text.find(part), std::string::npos) << part << ": " << text;
+  };
+  const std::vector<Setting> usual = {{"peridynamics", "horizon", 0.25}};
+  EXPECT_EQ(answer(good, usual, 0.3), "");
+  Cloud twice = good;
+  twice.X[7] = twice.X[8];
+  says(answer(twice, usual, 0.3),
+       "particle 7 (at X = 0.25, 0.15, 0.05) and particle 8 are at the same place");
+  Cloud shifted = good;
+  shifted.X[7][0] += 0.01;
+  says(answer(shifted, {usual[0], {"cpd", "hood_volume", 0, "sphere"}}, 0.3),
+       "are not on one; use 'sum'");
+  says(answer(good, usual, 0.2), "nu = 0.2 makes C3 = -");
+  says(answer(good, {usual[0], {"cpd", "C1", -3.0}}, 0.3), "C1 is -3; allowed: > 0");
+  says(answer(good, {{"peridynamics", "horizon", 0.14}}, 0.3),
+       "is 1.4 spacings of the particles (0.1 [m])");
+  says(answer(good, {{"peridynamics", "horizon", 0.6}}, 0.3),
+       "larger than the body, whose longest side is 0.5");
+  says(answer(good, {usual[0], {"fracture", "Gf", 1}, {"fracture", "length", 1}}, 0.3),
+       "leave length");
+  says(answer(good, {usual[0], {"fracture", "criterion", 0, "bond_strain"}}, 0.3),
+       "needs critical_strain > 0");
+  says(answer(good, {usual[0], {"peridynamics", "section", 1}}, 0.3), "makes it a bar");
+
+  Model model;
+  const SimplexMesh mesh = patch(3, 2, 1.0, 0.1, 6);
+  model.add({CLEAVE_FORMULATION_lps, CLEAVE_MATERIAL_svk, CLEAVE_3D}, mesh);
+  std::vector<double> volume(27, 1.0);
+  EXPECT_EQ(cleave_body_volumes(model, 0, 26, volume.data()), CLEAVE_BAD_ARGUMENT);
+  says(last_message(), "count is 26; body 0 'patch' has 27 particles");
+  volume[3] = 0;
+  EXPECT_EQ(cleave_body_volumes(model, 0, 27, volume.data()), CLEAVE_BAD_ARGUMENT);
+  says(last_message(), "the volume of particle 3 is 0; allowed: > 0 and finite");
+}
+
 // Largest energy over the first of a body whose points start with random velocities.
 double growth(int32_t formulation, const Cloud& cloud, double horizon, double factor,
               const std::vector<Setting>& more) {
