@@ -9,6 +9,15 @@ namespace cleave::driver {
 // The points of a &points group. Throws DeckError.
 BodyGeometry read_points(const Deck& deck, const DeckGroup& points, int dimension);
 
+// Whether a &lattice has its points in the middle of its cells; throws DeckError where it cannot.
+bool has_cell_points(const DeckGroup& source);
+void check_cell_points(const Deck& deck, const DeckGroup& lattice);
+
+// Gives the body of a &body the volumes of its particles where they have their own: cells of its mesh, or of
+// a lattice `source`. Throws DeckError.
+void take_volumes(const Deck& deck, const DeckGroup& group, const DeckGroup& source,
+                  BodyGeometry& body);
+
 // Makes particles of the simplices of the body; groups keep the cells all of whose corners they hold.
 void turn_cells_into_points(BodyGeometry& body);
 

@@ -20,29 +20,6 @@
 namespace cleave::driver {
 namespace {
 
-bool has_cell_points(const DeckGroup& group) {
-  return group.name == "lattice" && group.text("points") == "centres";
-}
-
-// Points in the middle of cells: the lattice of their own is half a spacing smaller on each side.
-void check_cell_points(const Deck& deck, const DeckGroup& group) {
-  if (!has_cell_points(group)) return;
-  const std::string& type = group.text("type");
-  if ((type != "square" && type != "cubic") || group.text("shape") != "block") {
-    deck.fail(
-        group, "points",
-        "points = 'centres' is for blocks of a square or cubic lattice; use points = 'corners', or "
-        "a file of points");
-  }
-  for (std::size_t k = 0; k < (type == "square" ? 2u : 3u); ++k) {
-    if (group.reals("size")[k] > 1.5 * group.real("spacing")) continue;
-    deck.fail(group, "size",
-              "points = 'centres' needs two cells or more along each axis; along " +
-                  std::string(1, "xyz"[k]) + " the size is " + number(group.reals("size")[k]) +
-                  " and the spacing " + number(group.real("spacing")));
-  }
-}
-
 io::LatticeSpec lattice_spec(const DeckGroup& group) {
   static const std::map<std::string, io::LatticeKind> kinds{
       {"square", io::LatticeKind::square},
@@ -200,24 +177,6 @@ std::vector<Index> take_simplices(const Deck& deck, const DeckGroup& group, cons
       body.simplices.push_back(
           static_cast<std::int32_t>(number_of[at(block.nodes[at(cell * corners + a)])]));
   return number_of;
-}
-
-// Bodies whose particles have volumes of their own.
-void take_volumes(const Deck& deck, const DeckGroup& group, const DeckGroup& source,
-                  BodyGeometry& body) {
-  const bool cells = group.text("particles") == "cells";
-  if (cells && has_cell_points(source)) {
-    deck.fail(
-        group, "particles",
-        "the points of the lattice are the middles of its cells already; use particles = 'nodes'");
-  }
-  if (cells && group.text("elements") == "quadratic") {
-    deck.fail(group, "particles", "particles = 'cells' has no elements; use elements = 'linear'");
-  }
-  if (cells) turn_cells_into_points(body);
-  if (has_cell_points(source)) {
-    body.volumes.assign(at(body.particles()), std::pow(source.real("spacing"), body.dimension));
-  }
 }
 
 BodyGeometry take_points(const Deck& deck, const DeckGroup& group, const DeckGroup& source) {
