@@ -68,6 +68,8 @@ TEST_F(Arguments, EmptyRangesNeedNoArrays) {
   ok(cleave_field_get_integer(ready, 0, "simplex_alive", 0, 0, nullptr));
   ok(cleave_body_precrack(ready, 0, 0, nullptr));
   ok(cleave_body_exempt(fresh, 0, 0, nullptr));
+  EXPECT_EQ(cleave_body_volumes(fresh, 0, 0, nullptr),
+            CLEAVE_BAD_ARGUMENT);  // each particle needs one
   ok(cleave_body_prescribe(fresh, 0, 0, nullptr, nullptr, nullptr));
   ok(cleave_body_reaction(ready, 0, 0, nullptr, vec));
 }

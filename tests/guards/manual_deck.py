@@ -21,9 +21,15 @@ def make_mesh(deck, folder):
         run([shutil.which("gmsh") or "gmsh", "-v", "1", "-2", deck.parent / f"{name}.geo", "-o", f"{name}.msh"], folder)
 
 
+def copy_points(deck, folder):
+    for name in re.findall(r"file\s*=\s*'([^']+\.csv)'", deck.read_text(encoding="utf-8")):
+        shutil.copy(deck.parent / name, folder)
+
+
 def main(cleave, deck):
     with tempfile.TemporaryDirectory() as folder:
         make_mesh(deck, folder)
+        copy_points(deck, folder)
         shutil.copy(deck, folder)
         said = run([cleave, "check", deck.name], folder)
         if not re.search(r"\d+ (particles|steps)", said):

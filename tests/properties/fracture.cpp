@@ -27,15 +27,20 @@ class Fracture : public testing::TestWithParam<Case> {
 
 TEST_P(Fracture, IsIrreversibleAndEventsTellTheSameStory) {
   Model model;
-  model.add(GetParam(), mesh(), {{"fracture", "critical_strain", 0.02}});
+  model.add(GetParam(), mesh(), {{"fracture", "critical_strain", breaking_strain(GetParam())}});
   model.setup();
   pull(model, 12.0);
   const double dt = 0.3 * model.stable_step();
-  auto alive = model.integer("simplex_alive");
+  const bool simplices =
+      cleave_field_find(model, 0, "simplex_alive", nullptr) != CLEAVE_UNKNOWN_NAME;
+  const auto living = [&] {
+    return simplices ? model.integer("simplex_alive") : std::vector<int64_t>();
+  };
+  auto alive = living();
   auto status = model.integer("bond_status");
   for (int n = 0; n < 300; ++n) {
     model.step(dt);
-    const auto alive_now = model.integer("simplex_alive");
+    const auto alive_now = living();
     const auto status_now = model.integer("bond_status");
     for (std::size_t k = 0; k < alive.size(); ++k) ASSERT_LE(alive_now[k], alive[k]);
     for (std::size_t k = 0; k < status.size(); ++k) {
@@ -70,16 +75,16 @@ TEST_P(Fracture, IsIrreversibleAndEventsTellTheSameStory) {
 // law flows plastically, because the return mapping is a backward Euler step.
 TEST_P(Fracture, LedgerClosesWithDeletionsViscosityAndStabilisation) {
   for (const std::string form : {"none", "deviation", "blend"}) {
-    if (form == "blend" && remembers(GetParam())) continue;                    // refused
-    if (form == "deviation" && !takes(GetParam(), "stabilisation")) continue;  // a fluid
+    if (form == "blend" && remembers(GetParam())) continue;               // refused
+    if (form != "none" && !takes(GetParam(), "stabilisation")) continue;  // a fluid
     const auto closure = [&](double fraction) {
       Model model;
       model.add(GetParam(), mesh(),
-                {{"fracture", "critical_strain", 0.02},
-                 {"viscosity", "beta", 0.5},
-                 {"viscosity", "length", kSpacing},
-                 {"stabilisation", "form", 0, form},
-                 {"stabilisation", "alpha", 0.05}});
+                accepted(GetParam(), {{"fracture", "critical_strain", breaking_strain(GetParam())},
+                                      {"viscosity", "beta", 0.5},
+                                      {"viscosity", "length", kSpacing},
+                                      {"stabilisation", "form", 0, form},
+                                      {"stabilisation", "alpha", 0.05}}));
       model.setup();
       pull(model, 16.0);
       const double dt = fraction * model.stable_step();
@@ -94,7 +99,8 @@ TEST_P(Fracture, LedgerClosesWithDeletionsViscosityAndStabilisation) {
       EXPECT_GT(coarse / fine, 1.5) << form;
       continue;
     }
-    EXPECT_LT(fine, 2e-6) << form;          // measured 3e-7 to 5e-7
+    // Measured 3e-7 to 5e-7; peridynamics, which has no viscosity and more bonds, 5e-6 to 9e-6.
+    EXPECT_LT(fine, peridynamic(GetParam().formulation) ? 2e-5 : 2e-6) << form;
     EXPECT_GT(coarse / fine, 2.5) << form;  // second order: measured 2.9 to 4.0
   }
 }
@@ -102,7 +108,7 @@ TEST_P(Fracture, LedgerClosesWithDeletionsViscosityAndStabilisation) {
 TEST_P(Fracture, PatchIsExactAfterDeletionsAndIsolatedParticlesStayFinite) {
   const SimplexMesh m = mesh();
   Model model;
-  model.add(GetParam(), m, {{"fracture", "critical_strain", 0.02}});
+  model.add(GetParam(), m, {{"fracture", "critical_strain", breaking_strain(GetParam())}});
   model.setup();
   // Every bond of particle 0 cut: it has no simplex left.
   const auto ends = model.integer("bond_ends");
@@ -142,7 +148,7 @@ TEST_P(Fracture, PatchIsExactAfterDeletionsAndIsolatedParticlesStayFinite) {
 TEST_P(Fracture, ExemptAndDrivenBondsNeverBreak) {
   const SimplexMesh m = mesh();
   Model model;
-  model.add(GetParam(), m, {{"fracture", "critical_strain", 0.02}});
+  model.add(GetParam(), m, {{"fracture", "critical_strain", breaking_strain(GetParam())}});
   std::vector<int64_t> zone;
   for (int64_t i = 0; i < m.particles(); ++i) {
     if (m.X[static_cast<std::size_t>(3 * i)] > 5 * kSpacing * 0.5) zone.push_back(i);

@@ -47,7 +47,7 @@ class Free {
 
 // Bonds that break and viscosity, as far as the formulation has them.
 std::vector<Setting> breaking(const Case& c) {
-  return accepted(c, {{"fracture", "critical_strain", 0.02},
+  return accepted(c, {{"fracture", "critical_strain", breaking_strain(c)},
                       {"viscosity", "beta", 0.3},
                       {"viscosity", "length", kSpacing}});
 }
@@ -124,7 +124,8 @@ TEST_P(Motion, ThreadsDoNotChangeABit) {
 
 // millimetre, millisecond, gram: lengths x 1000, times x 1000, masses x 1000.
 TEST_P(Motion, UnitsDoNotMatter) {
-  const auto settings = accepted(GetParam(), {{"fracture", "critical_strain", 0.02}});
+  const auto settings =
+      accepted(GetParam(), {{"fracture", "critical_strain", breaking_strain(GetParam())}});
   Free si(GetParam(), settings, 25.0);
   Free mm(GetParam(), settings, 25.0, 1, 1000, 1000, 1000);
   si.run(100);

@@ -15,7 +15,7 @@ class Restart : public testing::TestWithParam<Case> {
   }
   void build(Model& model) const {
     model.add(GetParam(), mesh(),
-              accepted(GetParam(), {{"fracture", "critical_strain", 0.02},
+              accepted(GetParam(), {{"fracture", "critical_strain", breaking_strain(GetParam())},
                                     {"viscosity", "beta", 0.3},
                                     {"viscosity", "length", kSpacing},
                                     {"stabilisation", "alpha", 0.03},

@@ -50,7 +50,7 @@ class KeyTable {
   const std::vector<GroupSpec>& groups() const { return groups_; }
   const GroupSpec* find(std::string_view group) const;  // any case; nullptr if unknown
   std::vector<std::string> group_names() const;
-  // Groups with a key that gives names of this kind: "&mesh or &lattice".
+  // Groups with a key that gives names of this kind: "&mesh or &lattice or &points".
   std::string groups_naming(std::string_view kind) const;
 
  private:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 
 #include "run/run.hpp"
@@ -26,6 +27,12 @@ void say_bodies(const Scene& scene) {
         number(counts.inert) + " bonds inert at the start");
     say("  from " + point_text(box.lower) + " to " + point_text(box.upper) + ", shortest bond " +
         number(shortest_edge(geometry)) + ", wave speed " + number(scene.model().wave_speed(body)));
+    if (scene.model().find_field(body, "interactions")) {
+      const std::vector<double> n = scene.model().reals(body, "interactions");
+      say("  interactions: " + number(Index(std::llround(n[0]))) + " one-neighbour, " +
+          number(Index(std::llround(n[1]))) + " two-neighbour, " +
+          number(Index(std::llround(n[2]))) + " three-neighbour");
+    }
     for (const NamedSet& set : scene.sets().of_body(body)) {
       say("  set " + in_quotes(set.name) + ": " + number(Index(set.particles.size())) +
           " particles");

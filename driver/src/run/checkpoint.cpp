@@ -50,7 +50,11 @@ BodyGeometry body_from(const io::ArchiveHeader& archive, const std::string& name
     }
     body.simplices.push_back(static_cast<std::int32_t>(particle));
   }
-  body.quadratic = archive.find_array(name + "/simplices")->components != body.dimension + 1;
+  const Index nodes = archive.find_array(name + "/simplices")->components;
+  body.cloud = nodes == 1;
+  body.quadratic = !body.cloud && nodes != body.dimension + 1;
+  if (archive.find_array(name + "/volumes") != nullptr)
+    body.volumes = array<double>(archive, name + "/volumes", path);
   std::istringstream names(attribute<std::string>(archive, name + ".groups", path));
   Index group = 0;
   for (std::string line; std::getline(names, line);) {

@@ -9,8 +9,8 @@
 #include "deck/kernel_tables.hpp"
 #include "deck/nearest_name.hpp"
 #include "io/csv.hpp"
-#include "run/csv_columns.hpp"
 #include "run/run.hpp"
+#include "scene/csv_columns.hpp"
 #include "scene/format.hpp"
 #include "scene/model.hpp"
 

@@ -7,7 +7,7 @@
 #include "run/checkpoint.hpp"
 #include "run/checkpoint_files.hpp"
 #include "run/components.hpp"
-#include "run/csv_columns.hpp"
+#include "scene/csv_columns.hpp"
 #include "scene/format.hpp"
 #include "scene/index.hpp"
 #include "scene/unit_text.hpp"

@@ -62,6 +62,10 @@ void add_geometry(const BodyGeometry& body, io::ArchiveSource& archive) {
   }
   archive.arrays.push_back(integers(body.name + "/simplices", "particles of every simplex",
                                     body.simplices, body.simplex_nodes()));
+  if (!body.volumes.empty()) {
+    archive.arrays.push_back({body.name + "/volumes", "m3", "volume of the particle as given", 1,
+                              std::ssize(body.volumes), from<double>(body.volumes)});
+  }
   archive.attributes.emplace_back(body.name + ".groups", names);
   archive.attributes.emplace_back(body.name + ".dimension", Index{body.dimension});
 }

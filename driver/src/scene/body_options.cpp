@@ -63,12 +63,18 @@ void add_body(const Deck& deck, const DeckGroup& group, const BodyGeometry& geom
     spec.material = value_of(CLEAVE_TABLE_MATERIAL, material.text("law"));
     spec.particles = geometry.particles();
     spec.X = geometry.X.data();
-    spec.simplex_count = geometry.simplex_count();
-    const std::vector<Index> simplices(geometry.simplices.begin(), geometry.simplices.end());
-    spec.simplices = simplices.data();
-    spec.simplex_nodes = static_cast<std::int32_t>(geometry.simplex_nodes());
+    std::vector<Index> simplices;
+    if (!geometry.cloud) {
+      simplices.assign(geometry.simplices.begin(), geometry.simplices.end());
+      spec.simplex_count = geometry.simplex_count();
+      spec.simplices = simplices.data();
+      spec.simplex_nodes = static_cast<std::int32_t>(geometry.simplex_nodes());
+    }
     spec.name = geometry.name.c_str();
     body = model.add_body(spec);
+    if (!geometry.volumes.empty())
+      check(cleave_body_volumes(model.handle(), body, std::ssize(geometry.volumes),
+                                geometry.volumes.data()));
   });
   at_place(deck, material, [&] { set_parameters(material, "material", body, model); });
 }

@@ -134,6 +134,11 @@ void Forces::add(const Deck& deck, const std::vector<BodyGeometry>& bodies, cons
       deck.fail(group, "kind",
                 "a " + kind + " cannot act on quadratic elements; use a force or linear elements");
     }
+    if ((kind == "pressure" || kind == "traction") && body.cloud) {
+      deck.fail(group, "kind",
+                "a " + kind + " needs facets, and body " + in_quotes(body.name) +
+                    " is a cloud of points; use a force or body_force on a layer of points");
+    }
     if (kind == "pressure") {
       moving_[at(selection.body)] = 1;
       load.surfaces.push_back({selection.body, surface_facets(body, selection.particles)});

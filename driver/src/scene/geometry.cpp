@@ -12,6 +12,7 @@
 #include "io/error.hpp"
 #include "io/lattice.hpp"
 #include "io/mesh.hpp"
+#include "scene/cloud.hpp"
 #include "scene/format.hpp"
 #include "scene/index.hpp"
 #include "scene/split.hpp"
@@ -37,6 +38,12 @@ io::LatticeSpec lattice_spec(const DeckGroup& group) {
   const auto& size = group.reals("size");
   std::copy_n(origin.begin(), 3, spec.origin.begin());
   std::copy_n(size.begin(), 3, spec.size.begin());
+  if (has_cell_points(group)) {
+    for (std::size_t k = 0; k < (spec.lattice == io::LatticeKind::square ? 2u : 3u); ++k) {
+      spec.origin[k] += 0.5 * spec.spacing;
+      spec.size[k] -= spec.spacing;
+    }
+  }
   spec.radius = group.real("radius");
   spec.height = group.real("height");
   spec.axis = group.text("axis")[0] - 'x';
@@ -46,6 +53,7 @@ io::LatticeSpec lattice_spec(const DeckGroup& group) {
 io::Mesh mesh_of(const Deck& deck, const DeckGroup& group) {
   namespace fs = std::filesystem;
   if (group.name == "lattice") {
+    check_cell_points(deck, group);
     try {
       return io::make_lattice(lattice_spec(group));
     } catch (const io::Error& error) {
@@ -171,6 +179,15 @@ std::vector<Index> take_simplices(const Deck& deck, const DeckGroup& group, cons
   return number_of;
 }
 
+BodyGeometry take_points(const Deck& deck, const DeckGroup& group, const DeckGroup& source) {
+  BodyGeometry body = read_points(deck, source, dimension_of(group.text("kinematics")));
+  body.name = group.text("name");
+  const auto& shift = group.reals("translate");
+  for (std::size_t c = 0; c < body.X.size(); ++c) body.X[c] += shift[c % 3];
+  if (body.dimension == 2) flatten(deck, group, body);
+  return body;
+}
+
 BodyGeometry take_body(const Deck& deck, const DeckGroup& group, const io::Mesh& mesh,
                        std::vector<Index>& crack_use) {
   BodyGeometry body;
@@ -277,6 +294,11 @@ void make_quadratic(BodyGeometry& body) {
 
 double shortest_edge(const BodyGeometry& body) {
   if (body.shortest_edge_found > 0) return body.shortest_edge_found;
+  if (body.cloud) {
+    const double least = *std::min_element(body.volumes.begin(), body.volumes.end());
+    body.shortest_edge_found = std::pow(least, 1.0 / body.dimension);
+    return body.shortest_edge_found;
+  }
   double square = std::numeric_limits<double>::infinity();
   std::array<double, 3> shortest{};
   const int corners = body.dimension + 1;
@@ -332,9 +354,16 @@ std::vector<BodyGeometry> take_bodies(const Deck& deck) {
   for (const DeckGroup* group : groups) {
     check_body_name(deck, *group);
     const std::string& mesh = group->text("mesh");
+    const DeckGroup& source = named_group(deck, {"mesh", "lattice", "points"}, mesh);
+    if (source.name == "points") {
+      bodies.push_back(take_points(deck, *group, source));
+      continue;
+    }
     bodies.push_back(take_body(deck, *group, meshes.get(mesh), crack_use));
+    take_volumes(deck, *group, source, bodies.back());
     meshes.used(mesh);
   }
+  cut_notches(deck, bodies);
   for (std::size_t i = 0; i < precracks.size(); ++i) {
     if (precracks[i]->text("shape") == "group" && crack_use[i] == 0) {
       deck.fail(*precracks[i], "set",

@@ -25,6 +25,8 @@ struct BodyGeometry {
   // particles are fewer than 2^31
   std::vector<std::int32_t> simplices;
   bool quadratic = false;               // six-node triangles
+  bool cloud = false;                   // no simplices: each entry is a particle by itself
+  std::vector<double> volumes;          // (n) of the particles; empty: from the simplices
   std::vector<std::int64_t> point_ids;  // (n) number in the mesh file; split particles get new ones
   std::vector<NamedSet> groups;         // mesh groups that have particles in this body
   // Facets of every &precrack with shape = 'group' and mode = 'delete'; used once, before the first
@@ -33,7 +35,7 @@ struct BodyGeometry {
   mutable double shortest_edge_found = 0;  // 0: not yet
 
   std::int64_t particles() const { return static_cast<std::int64_t>(X.size()) / 3; }
-  std::int64_t simplex_nodes() const { return quadratic ? 6 : dimension + 1; }
+  std::int64_t simplex_nodes() const { return cloud ? 1 : quadratic ? 6 : dimension + 1; }
   std::int64_t simplex_count() const {
     return static_cast<std::int64_t>(simplices.size()) / simplex_nodes();
   }
@@ -44,7 +46,8 @@ struct BodyGeometry {
 // ends belong to. Numbers of new particles follow the others.
 void make_quadratic(BodyGeometry& body);
 
-// Length of the shortest edge of the simplices [m]; found at the first call.
+// Length of the shortest edge of the simplices [m], of a cloud the side of the smallest volume; found at the
+// first call.
 double shortest_edge(const BodyGeometry& body);
 // Lowest and highest coordinates (3 + 3).
 struct Box {

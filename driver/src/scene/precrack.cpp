@@ -306,10 +306,30 @@ std::vector<Index> crossing_bonds(const std::vector<CrackPiece>& pieces, const B
   return found;
 }
 
+namespace {
+
+// The bonds of a body that cross the pieces; looked at in parts, for they may be many. False: none.
+bool add_crossing(const std::vector<CrackPiece>& pieces, const BodyGeometry& geometry, Index body,
+                  const Model& model, std::vector<std::pair<Index, Index>>& found) {
+  constexpr Index kPart = 1 << 20;
+  const auto field = model.find_field(body, "bond_ends");
+  const std::size_t before = found.size();
+  std::vector<Index> ends;
+  for (Index first = 0; field && first < field->count; first += kPart) {
+    const Index last = std::min(first + kPart, field->count);
+    ends.resize(at(2 * (last - first)));
+    model.get(body, "bond_ends", first, last, ends);
+    const auto pairs = crossing_bonds(pieces, geometry, ends);
+    for (std::size_t k = 0; k < pairs.size(); k += 2) found.push_back({pairs[k], pairs[k + 1]});
+  }
+  return found.size() > before;
+}
+
+}  // namespace
+
 void delete_cracks(const Deck& deck, const std::vector<BodyGeometry>& bodies, const Sets& sets,
                    Model& model) {
   std::vector<std::vector<std::pair<Index, Index>>> broken(bodies.size());
-  std::vector<std::vector<Index>> bonds(bodies.size());
   std::vector<std::size_t> next_facets(bodies.size(), 0);
   for (const DeckGroup* precrack : deck.all("precrack")) {
     if (precrack->text("mode") != "delete") continue;
@@ -317,15 +337,10 @@ void delete_cracks(const Deck& deck, const std::vector<BodyGeometry>& bodies, co
     bool any = false;
     for (const Index body : sets.bodies(*precrack)) {
       const BodyGeometry& geometry = bodies[at(body)];
-      if (bonds[at(body)].empty()) bonds[at(body)] = model.integers(body, "bond_ends");
       const auto pieces =
           by_group ? crack_pieces(geometry.crack_facets[next_facets[at(body)]++], geometry)
                    : crack_pieces(deck, *precrack, geometry.dimension);
-      const auto pairs = crossing_bonds(pieces, geometry, bonds[at(body)]);
-      any = any || !pairs.empty();
-      for (std::size_t k = 0; k < pairs.size(); k += 2) {
-        broken[at(body)].push_back({pairs[k], pairs[k + 1]});
-      }
+      any = add_crossing(pieces, geometry, body, model, broken[at(body)]) || any;
     }
     if (!any) {
       std::string extents;

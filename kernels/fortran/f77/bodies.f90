@@ -126,6 +126,23 @@ recursive subroutine clbexe(mod, ibody, n, npart, ierr)
   ierr = status
 end subroutine clbexe
 
+! Volumes of the particles instead of shares of simplices.
+recursive subroutine clbvol(mod, ibody, n, volume, ierr)
+  use, intrinsic :: iso_c_binding, only: c_int32_t
+  use cleave77_support, only: model_of, at_least
+  use cleave, only: cleave_model, cleave_body_volumes, CLEAVE_OK
+  implicit none
+  integer, intent(in) :: mod, ibody, n
+  double precision, intent(in) :: volume(*)
+  integer, intent(out) :: ierr
+  type(cleave_model) :: model
+  integer(c_int32_t) :: status
+  call model_of('CLBVOL', mod, model, status)
+  if (status == CLEAVE_OK) status = at_least('CLBVOL', 'N', n, 0)
+  if (status == CLEAVE_OK) status = cleave_body_volumes(model, ibody, volume(:n))
+  ierr = status
+end subroutine clbvol
+
 ! Breaks bonds npair(2,n) before the first step: pre-cracks.
 recursive subroutine clbcrk(mod, ibody, n, npair, ierr)
   use, intrinsic :: iso_c_binding, only: c_int32_t

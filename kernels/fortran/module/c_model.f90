@@ -18,6 +18,7 @@ module cleave_c_model
   public :: cleave_body_get_real
   public :: cleave_body_prescribe
   public :: cleave_body_exempt
+  public :: cleave_body_volumes
   public :: cleave_model_setup
   public :: cleave_body_precrack
   public :: cleave_model_stable_step
@@ -152,6 +153,15 @@ module cleave_c_model
       integer(c_int64_t), intent(in) :: particle(*)
       integer(c_int32_t) :: status
     end function cleave_body_exempt
+
+    function cleave_body_volumes(model, body, count, volume) bind(C) result(status)
+      import :: c_ptr, c_int64_t, c_int32_t, c_double
+      implicit none
+      type(c_ptr), value :: model
+      integer(c_int64_t), value :: body, count
+      real(c_double), intent(in) :: volume(*)
+      integer(c_int32_t) :: status
+    end function cleave_body_volumes
 
     function cleave_model_setup(model) bind(C) result(status)
       import :: c_ptr, c_int32_t

@@ -392,15 +392,22 @@ CLEAVE_API int32_t cleave_body_get_real(cleave_model* model, int64_t body, const
 
 /* Prescribed degrees of freedom, before cleave_model_setup; replaces an earlier list.  A particle
  * and direction may occur once.  Bonds whose ends are both prescribed in every direction of the
- * body's dimension, or both listed in cleave_body_exempt, are never broken. [in] particle,
- * direction (n): direction 0, 1, 2    [in] motion (n): enum cleave_motion */
+ * body's dimension, or both listed in cleave_body_exempt (bond_pd, cpd and lps: one of them), are never
+ * broken. [in] particle, direction (n): direction 0, 1, 2    [in] motion (n): enum cleave_motion */
 CLEAVE_API int32_t cleave_body_prescribe(cleave_model* model, int64_t body, int64_t count,
                                          const int64_t* particle, const int32_t* direction,
                                          const int32_t* motion);
-/* Particles of a zone without fracture: bonds with both ends in the list are exempt.  Before
+/* Particles of a zone without fracture: bonds with both ends in the list are exempt, those of bond_pd, cpd
+ * and lps with one end.  Before
  * set-up; adds up. */
 CLEAVE_API int32_t cleave_body_exempt(cleave_model* model, int64_t body, int64_t count,
                                       const int64_t* particle);
+
+/* Volumes of the particles of a body, instead of shares of its simplices, which it then needs not have;
+ * before set-up, for formulations bond_pd, cpd and lps.
+ * [in] volume (n)   reference volume, > 0 [m3] (2D: [m2]) */
+CLEAVE_API int32_t cleave_body_volumes(cleave_model* model, int64_t body, int64_t count,
+                                       const double* volume);
 
 /* Checks everything and builds bonds, masses and fields.  Errors name the body and the parameter.
  */

@@ -137,8 +137,9 @@ int32_t cleave_field_get_integer(cleave_model* model, int64_t body, const char* 
     if (first == last) return;
     fetch(b, name);
     if (f.spec.lifetime == CLEAVE_LIFETIME_DERIVED) {
-      if (!b.formulation->derive(b, name, first, last, &required(values, "values")))
+      if (!b.formulation->derive_integers(b, name, first, last, &required(values, "values"))) {
         throw Error(CLEAVE_INTERNAL, text("nothing computes the derived field '", name, "'"));
+      }
       return;
     }
     std::copy(f.integer.begin() + f.spec.components * first,

@@ -1,6 +1,7 @@
 // The model handle: life, set-up, stepping, questions.
 #include "model/model.hpp"
 
+#include <cmath>
 #include <cstring>
 
 #include "abi/checks.hpp"
@@ -182,6 +183,33 @@ int32_t cleave_body_exempt(cleave_model* model, int64_t body, int64_t count,
     for (const int64_t i : list) b.check_particle(i, CLEAVE_BAD_RANGE, "the zone without fracture");
     b.exempt.resize(static_cast<std::size_t>(b.particles), 0);
     for (const int64_t i : list) b.exempt[static_cast<std::size_t>(i)] = 1;
+  });
+}
+
+int32_t cleave_body_volumes(cleave_model* model, int64_t body, int64_t count,
+                            const double* volume) {
+  return guarded("cleave_body_volumes", [&] {
+    checked(model).require(Phase::building, kBeforeSetup);
+    Body& b = model->body(body);
+    const auto list = span_of(volume, count, "volume");
+    if (count != b.particles) {
+      throw Error(CLEAVE_BAD_ARGUMENT, text("count is ", count, "; ", b.label(), " has ",
+                                            b.particles, " particles, and each needs a volume"));
+    }
+    for (int64_t i = 0; i < count; ++i) {
+      const double v = list[static_cast<std::size_t>(i)];
+      if (!(v > 0) || !std::isfinite(v)) {
+        throw Error(CLEAVE_BAD_ARGUMENT, text(b.label(), ": the volume of particle ", b.number(i),
+                                              " is ", v, "; allowed: > 0 and finite"));
+      }
+    }
+    if (!b.formulation->takes_volumes()) {
+      throw Error(CLEAVE_UNSUPPORTED,
+                  text(b.label(), ": formulation ", b.formulation->name(),
+                       " takes the volumes of its particles from simplices; give a mesh, or use "
+                       "bond_pd, cpd or lps"));
+    }
+    b.given_volumes.assign(list.begin(), list.end());
   });
 }
 

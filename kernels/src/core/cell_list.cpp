@@ -106,10 +106,15 @@ void fill_reverse(NeighbourRows& rows) {
 
 }  // namespace
 
+double square_reach(double radius, Radius rule) {
+  return radius * radius * (rule == Radius::open ? 1 - kTolerance : 1 + kTolerance);
+}
+
 NeighbourRows neighbours_within(const double* X, std::int64_t n, double radius, Radius rule,
-                                const std::string& owner, std::int64_t most) {
+                                const std::string& owner, std::int64_t most,
+                                ReverseHalves reverse) {
   const CellGrid grid(X, n, radius);
-  const double limit = radius * radius * (rule == Radius::open ? 1 - kTolerance : 1 + kTolerance);
+  const double limit = square_reach(radius, rule);
   const auto for_row = [&](std::int64_t i, const auto& f) {
     grid.for_near(i, [&](std::int32_t p) {
       const Vec<3> d = difference<3>(X, i, p);
@@ -137,7 +142,7 @@ NeighbourRows neighbours_within(const double* X, std::int64_t n, double radius, 
     for_row(i, [&](std::int32_t p) { *next++ = p; });
     std::sort(first, next);
   }
-  fill_reverse(rows);
+  if (reverse == ReverseHalves::listed) fill_reverse(rows);
   return rows;
 }
 

@@ -20,14 +20,20 @@ enum class Radius { open, closed };
 struct NeighbourRows {
   std::vector<std::int32_t> row_begin;  // (n+1)
   std::vector<std::int32_t> neighbour;  // (h)
-  std::vector<std::int32_t> reverse;    // (h) place of (p,i) for the half-bond (i,p)
+  std::vector<std::int32_t>
+      reverse;  // (h) place of (p,i) for the half-bond (i,p); empty if not wanted
 };
+enum class ReverseHalves { listed, left_out };
 
 inline constexpr std::int64_t kMostHalfBonds = std::numeric_limits<std::int32_t>::max();
+
+// The square of the distance below which a pair belongs together.
+double square_reach(double radius, Radius rule);
 
 // [in] X (3,n) [m], third component 0 in two dimensions; radius > 0 [m]; owner: for the message
 // Throws BAD_ARGUMENT above `most` half-bonds.
 NeighbourRows neighbours_within(const double* X, std::int64_t n, double radius, Radius rule,
-                                const std::string& owner, std::int64_t most = kMostHalfBonds);
+                                const std::string& owner, std::int64_t most = kMostHalfBonds,
+                                ReverseHalves reverse = ReverseHalves::listed);
 
 }  // namespace cleave

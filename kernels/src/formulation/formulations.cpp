@@ -1,15 +1,21 @@
 // The formulations table as objects: the one file that knows every formulation's class.
 #include "core/error.hpp"
+#include "formulation/bond_pd/bond_pd.hpp"
 #include "formulation/cbm/cbm.hpp"
+#include "formulation/cpd/cpd.hpp"
 #include "formulation/fem/fem.hpp"
+#include "formulation/lps/lps.hpp"
 #include "formulation/nosb/nosb.hpp"
 #include "formulation/tlsph/tlsph.hpp"
 #include "model/formulation.hpp"
 
 namespace cleave {
 
+using bond_pd::BondPeridynamics;
 using cbm::ContinuumBondMethod;
+using cpd::ContinuumKinematicsPeridynamics;
 using fem::FiniteElements;
+using lps::LinearPeridynamicSolid;
 using nosb::CorrespondencePeridynamics;
 using tlsph::TotalLagrangianSph;
 

@@ -58,6 +58,7 @@ struct Body {
   int simplex_nodes;                          // particles of a simplex
   std::vector<double> given_positions;        // until set-up
   std::vector<std::int64_t> given_simplices;  // (simplex_nodes,m) until set-up
+  std::vector<double> given_volumes;          // (n) until set-up; empty: from the simplices
   std::vector<char> exempt;                   // (n) 1: in a zone without fracture; empty: none
   bool by_rows = false;                       // step in the order of operations of the array calls
 

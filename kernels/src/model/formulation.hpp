@@ -38,6 +38,8 @@ class Formulation {
   // Number of points where the stress is evaluated, before fields are allocated;
   // kPointsAreParticles: the particles themselves.
   virtual std::int64_t integration_points(const Body&) const { return kPointsAreParticles; }
+  // Whether volumes of particles may be given instead of simplices.
+  virtual bool takes_volumes() const { return false; }
   // Checks the options, allocates the formulation's fields and fills those of lifetime setup.
   virtual void setup(Body& body, ThreadTeam& team) = 0;
   // All caches from setup and state fields, and whatever the formulation keeps outside fields.
@@ -70,10 +72,13 @@ class Formulation {
   // Fill a derived field of this formulation; false if it has no field of that name.
   virtual bool derive(const Body& body, std::string_view field, std::int64_t first,
                       std::int64_t last, double* values) const = 0;
-  virtual bool derive(const Body&, std::string_view, std::int64_t, std::int64_t,
-                      std::int64_t*) const {
+  // The same for derived fields of integers.
+  virtual bool derive_integers(const Body&, std::string_view, std::int64_t, std::int64_t,
+                               std::int64_t*) const {
     return false;
   }
+  // Brings a field up to date that no step needs, before it is read.
+  virtual void observe(Body&, std::string_view) {}
   virtual std::int64_t bytes() const = 0;
 };
 

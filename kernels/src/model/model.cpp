@@ -69,6 +69,7 @@ void set_up(cleave_model& model) {
   for (auto& body : model.bodies) {
     std::vector<double>().swap(body->given_positions);
     std::vector<std::int64_t>().swap(body->given_simplices);
+    std::vector<double>().swap(body->given_volumes);
   }
   model.phase = cleave_model::Phase::ready;
 }

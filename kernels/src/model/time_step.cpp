@@ -185,6 +185,7 @@ void check_finite(Body& body, const Clock& clock) {
 
 void fetch(Body& body, std::string_view field) {
   if (ResidentStep* resident = body.formulation->resident()) resident->fetch(body, field);
+  if (!field.empty()) body.formulation->observe(body, field);
 }
 
 void take_fields(Body& body) {

@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "formulation/cbm/parameters.hpp"
 #include "formulation/meshless/parameters.hpp"
+#include "formulation/peridynamics/parameters.hpp"
 #include "material/material.hpp"
 
 namespace cleave {
@@ -56,13 +57,16 @@ constexpr std::array kFemFields = {
 #define CLEAVE_FIELD CLEAVE_FIELD_SPEC
 #include "formulation/fem/fields.def"
 };
+constexpr std::array kPeridynamicFields = {
+#define CLEAVE_FIELD CLEAVE_FIELD_SPEC
+#include "formulation/peridynamics/fields.def"
+};
 
 std::vector<FieldOwner> make_field_owners() {
-  std::vector<FieldOwner> owners = {{"core", kCoreFields},
-                                    {"cbm", kCbmFields},
-                                    {"tlsph", kKernelMethodFields},
-                                    {"nosb", kKernelMethodFields},
-                                    {"fem", kFemFields}};
+  std::vector<FieldOwner> owners = {
+      {"core", kCoreFields},         {"cbm", kCbmFields},        {"tlsph", kKernelMethodFields},
+      {"nosb", kKernelMethodFields}, {"fem", kFemFields},        {"bond_pd", kPeridynamicFields},
+      {"cpd", kPeridynamicFields},   {"lps", kPeridynamicFields}};
   for (const auto& m : material_table()) owners.push_back({m.name, m.history});
   return owners;
 }

@@ -71,7 +71,7 @@ TEST(KeyTable, ReferencesPointToNamesThatExist) {
       EXPECT_TRUE(known) << group.name << '.' << key.name;
     }
   }
-  EXPECT_EQ(key_table().groups_naming("mesh"), "&mesh or &lattice");
+  EXPECT_EQ(key_table().groups_naming("mesh"), "&mesh or &lattice or &points");
 }
 
 TEST(KeyTable, LawsBringTheirPropertiesIntoMaterial) {

@@ -21,7 +21,26 @@ BAR = """
 &history every_steps=1 /
 &checkpoint every_steps=30 /
 """
+# A notched block of peridynamics with all interactions, and a sheet with its triangles, tearing.
+BLOCK = """
+&lattice type='cubic' spacing=1 size=11,6,4 points='centres' /
+&notch lower=5,-1 upper=6,2.2 /
+&body name='block' kinematics='3d' formulation='cpd' material='unit' /
+&material name='unit' law='linear_elastic' E=1 nu=0.3 rho=1 /
+&peridynamics horizon=2.4 /
+&fracture critical_strain=0.02 /
+&load name='low' kind='velocity' set='xmin' directions='x' value=-0.04 /
+&load name='high' kind='velocity' set='xmax' directions='x' value=0.04 /
+&output every_steps=10 fields='damage','equivalent_stress' /
+&history every_steps=1 /
+&checkpoint every_steps=15 /
+"""
+SHEET = BLOCK.replace("size=11,6,4", "size=21,12,0").replace("'cubic'", "'square'").replace("'3d'", "'plane_strain'")
 DECKS = {
+    "block": ("t_end=25", BLOCK),
+    "block-cloud": ("t_end=25", BLOCK + "&cpd weights='conservative' /\n"),
+    "sheet": ("t_end=40", SHEET),
+    "sheet-state": ("t_end=40", SHEET.replace("'cpd'", "'lps'")),
     "plate": ("t_end=40", PLATE + "&checkpoint every_steps=60 /\n"),
     "bar": ("t_end=60", BAR),
 }

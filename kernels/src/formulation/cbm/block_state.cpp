@@ -279,6 +279,7 @@ void BlockStep::make_current(Body& body, int group) {
     body.point_into_fields();
     held_[at(group)] = true;
   }
+  fit_scratch(body.dimension());  // there may be more threads than in the last step
   const bool plane = body.dimension() == 2;
   switch (group) {
     case kMotion:

@@ -69,6 +69,8 @@ Extremes extremes(const Network& network, std::int64_t particles, ThreadTeam& te
 void ContinuumBondMethod::setup(Body& body, ThreadTeam& team) {
   refuse_group(body, "kernel", "it belongs to formulations tlsph and nosb");
   refuse_group(body, "hourglass", "it belongs to tlsph and nosb; here it is group stabilisation");
+  refuse_group(body, "peridynamics", "it belongs to formulations bond_pd, cpd and lps");
+  refuse_group(body, "cpd", "it belongs to formulation cpd");
   if (body.simplex_nodes != body.dimension() + 1) {
     throw Error(CLEAVE_UNSUPPORTED,
                 text(body.label(), ": cbm takes simplices of ", body.dimension() + 1,
@@ -239,8 +241,8 @@ bool ContinuumBondMethod::derive(const Body& body, std::string_view field, std::
   return true;
 }
 
-bool ContinuumBondMethod::derive(const Body&, std::string_view field, std::int64_t first,
-                                 std::int64_t last, std::int64_t* values) const {
+bool ContinuumBondMethod::derive_integers(const Body&, std::string_view field, std::int64_t first,
+                                          std::int64_t last, std::int64_t* values) const {
   if (field != "bond_ends") return false;
   network_.copy_ends(first, last, values);
   return true;

@@ -35,8 +35,8 @@ class ContinuumBondMethod final : public Formulation {
   void count(const Body& body, cleave_counts& counts) const override;
   bool derive(const Body& body, std::string_view field, std::int64_t first, std::int64_t last,
               double* values) const override;
-  bool derive(const Body& body, std::string_view field, std::int64_t first, std::int64_t last,
-              std::int64_t* values) const override;
+  bool derive_integers(const Body& body, std::string_view field, std::int64_t first,
+                       std::int64_t last, std::int64_t* values) const override;
   std::int64_t bytes() const override;
 
  private:

@@ -10,6 +10,7 @@
 namespace cleave::cbm {
 
 enum class Criterion { none, bond_strain };
+enum class GriffithRelation { dimension, paper1d };
 enum class StabilisationForm { none, deviation, blend };
 
 inline constexpr std::array kFractureParameters = {
@@ -17,8 +18,10 @@ inline constexpr std::array kFractureParameters = {
                      "bond_strain: a bond breaks when its elongation over its reference length "
                      "reaches the critical strain",
                      "[CBM 20]"),
-    real_parameter("critical_strain", "1", kNotNegative, 0.0,
-                   "critical bond strain; 0: from Gf and the length", "[CBM 20]"),
+    real_parameter(
+        "critical_strain", "1", kNotNegative, 0.0,
+        "critical bond strain; 0: from Gf and the length or, in peridynamics, the horizon",
+        "[CBM 20]"),
     real_parameter("Gf", "J m-2", kNotNegative, 0.0,
                    "fracture energy: critical strain = sqrt(2 Gf / (E l)); 0: critical_strain is "
                    "given",
@@ -28,6 +31,12 @@ inline constexpr std::array kFractureParameters = {
                      "reference length"),
     real_parameter("length", "m", kNotNegative, 0.0,
                    "l of length_mode constant: the spacing of the refined region", "[CBM 32]"),
+    choice_parameter(
+        "relation", "dimension|paper1d", "dimension",
+        "peridynamics only, critical strain from Gf: dimension: the energy of all bonds "
+        "across a crack in as many dimensions as the body has; paper1d: sqrt(3 Gf/(2 E "
+        "horizon)) as published",
+        "[PD critical]"),
 };
 
 inline constexpr std::array kStabilisationParameters = {

@@ -26,6 +26,8 @@ void KernelMethod::setup(Body& body, ThreadTeam&) {
     refuse_group(body, "fracture", "bonds break in formulation cbm only");
   }
   refuse_group(body, "stabilisation", "the penalty of this method is group hourglass");
+  refuse_group(body, "peridynamics", "it belongs to formulations bond_pd, cpd and lps");
+  refuse_group(body, "cpd", "it belongs to formulation cpd");
   const Kernel kernel = make_kernel(body);
   gradient_.build(body, kernel);
   operator_ = gradient_.gradient();

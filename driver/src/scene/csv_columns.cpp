@@ -1,4 +1,4 @@
-#include "run/csv_columns.hpp"
+#include "scene/csv_columns.hpp"
 
 #include <charconv>
 #include <cmath>

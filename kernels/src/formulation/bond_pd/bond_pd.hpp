@@ -1,0 +1,29 @@
+// Bond-based peridynamics: central forces between all points within the horizon, linear in the stretch.
+//                                                                                           [PD bond]
+#pragma once
+
+#include "formulation/peridynamics/formulation.hpp"
+
+namespace cleave::bond_pd {
+
+class BondPeridynamics final : public peridynamics::Peridynamic {
+ public:
+  const char* name() const override { return "bond_pd"; }
+
+ private:
+  void prepare(Body& body) override;
+  double largest_rate(const Body& body) const override;
+  void act(Body& body, ThreadTeam& team) override;
+  peridynamics::PointEnergy point_energy(const Body& body, std::int64_t i,
+                                         int worker) const override;
+  Mat<3> point_stress(const Body& body, std::int64_t i, int worker) const override;
+
+  // Force of a bond over its stretch [N].
+  double weight(std::int64_t i, std::int64_t p) const {
+    return constant_ * hood_.volume[i] * hood_.volume[p];
+  }
+
+  double constant_ = 0;  // c [N m-6]
+};
+
+}  // namespace cleave::bond_pd

@@ -1,0 +1,63 @@
+// Continuum-kinematics-based peridynamics: one-, two- and three-neighbour interactions that resist changes
+// of length, area and volume.                                             [PD one, two, three, weights]
+#pragma once
+
+#include <vector>
+
+#include "formulation/cpd/cloud_cliques.hpp"
+#include "formulation/cpd/hood_numbers.hpp"
+#include "formulation/cpd/lattice_cliques.hpp"
+#include "formulation/peridynamics/formulation.hpp"
+
+namespace cleave::cpd {
+
+class ContinuumKinematicsPeridynamics final : public peridynamics::Peridynamic {
+ public:
+  const char* name() const override { return "cpd"; }
+  std::int64_t bytes() const override;
+
+ private:
+  struct Constants {
+    double one = 0, two = 0, three = 0;
+  };
+  void prepare(Body& body) override;
+  double largest_rate(const Body& body) const override;
+  void expect_workers(int workers) override;
+  void act(Body& body, ThreadTeam& team) override;
+  peridynamics::PointEnergy point_energy(const Body& body, std::int64_t i,
+                                         int worker) const override;
+  Mat<3> point_stress(const Body& body, std::int64_t i, int worker) const override;
+
+  void find_constants(const Body& body);
+  void check_constants(const Body& body) const;
+  void weigh(const Body& body);
+  double calibration(std::int64_t full) const;
+  double hood_volume(std::int64_t i) const;
+
+  void add_triangles(Body& body, ThreadTeam& team) const;
+  void add_tetrahedra(Body& body, ThreadTeam& team);
+  // The tetrahedra at a point whose three bonds carry, by themselves.
+  ApexSums tetrahedra_at(const Body& body, std::int64_t i, int worker) const;
+  // The star of the bonds of a point that carry; nullptr if it has no tetrahedron.
+  const Star* carrying_star(const Body& body, std::int64_t i, int worker) const;
+  // f(triangle, weight) for the triangles at i that carry; weight is that of the force on i.
+  template <class F>
+  void for_triangles(const double* x, std::int64_t i, const F& f) const;
+  bool carries(std::int64_t i, std::int64_t p) const {
+    return damage_.whole(i) || damage_.intact(hood_.find_half(i, p));
+  }
+
+  Constants constants_;
+  peridynamics::HoodVolume hood_form_ = peridynamics::HoodVolume::sum;
+  bool conservative_ = false, signed_volume_ = false;
+  double full_count_ = 0;              // neighbours of a full lattice neighbourhood, form sphere
+  std::vector<HoodNumbers> numbers_;   // until set-up is done
+  std::vector<double> two_, three_;    // (n) C2 v V_H^2/N2u, C3 v V_H^3/N3u
+  std::vector<double> sums_;           // (4,n) of the tetrahedra
+  std::vector<std::int32_t> damaged_;  // points with a broken bond, lattices only
+  CloudCliques cloud_;
+  LatticeCliques lattice_;                    // active: instead of cloud_
+  mutable std::vector<StarScratch> scratch_;  // of each worker
+};
+
+}  // namespace cleave::cpd

@@ -1,0 +1,90 @@
+// Three-neighbour sums over points on a cubic lattice: one list of shapes for all points, eight points at
+// a time; cells without a point are masked.
+//
+// The lattice is cut into fixed tiles. A tile sums its tetrahedra in arrays of its own, which reach as far
+// as the horizon, and each point then takes the parts of all tiles in their order: the same bits for any
+// number of threads. All bonds count as intact here: points at cracks are summed by themselves.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/aligned.hpp"
+#include "core/thread_team.hpp"
+#include "formulation/cpd/lattice.hpp"
+#include "formulation/cpd/lattice_kernels.hpp"
+#include "formulation/peridynamics/damage.hpp"
+
+namespace cleave::cpd {
+
+class LatticeCliques {
+ public:
+  // False where the list of shapes would be too long; then nothing is kept.
+  bool setup(const peridynamics::Neighbourhood& hood, const Lattice& lattice, bool signed_volume);
+  bool active() const { return !tiles_.empty(); }
+  // Tetrahedra that a point with all its neighbours is the first of.
+  std::int64_t shapes() const { return static_cast<std::int64_t>(ahead_.thirds.size()); }
+
+  void expect_workers(int workers);
+  // [in] u (3,n) displacement [m]   [out] sums (4,n): - sum of g G_i [m2], sum of 1/2 |V| g^2 [m3]
+  void sum(const double* u, ThreadTeam& team, double* sums);
+  // Sets the sums of the listed points, eight or fewer, by themselves: with the bonds that carry only.
+  void sum_by_itself(const peridynamics::Neighbourhood& hood, const peridynamics::Damage& damage,
+                     std::span<const std::int32_t> points, const double* u, int worker,
+                     double* sums);
+  std::int64_t bytes() const;
+
+ private:
+  using Cell = std::array<std::int32_t, 3>;  // along the fast, middle and slow axis
+  struct Tile {
+    std::int32_t middle, slow, slows;  // first own row; own rows along the slow axis
+    AlignedReals f[3], e;              // its sums, own rows and those it reaches
+    std::vector<char> eights;          // of each own eight, what is there
+  };
+  struct Part {  // a row in a tile
+    std::int32_t tile, row;
+  };
+  struct Scratch {
+    AlignedReals x[3], there, bench, around;
+  };
+  // Members, and the shapes that they make with the first point.
+  struct ShapeList {
+    std::vector<Cell> members;
+    std::vector<ShapePair> pairs;
+    std::vector<ShapeThird> thirds;
+    bool make(std::vector<Cell> cells, double limit);
+  };
+
+  bool list_shapes(double limit);
+  Shapes shapes_of(const ShapeList& list) const;
+  void make_tiles();
+  void sort_eights(Tile& tile) const;
+  void take_places(const Tile& tile, const double* u, Scratch& scratch) const;
+  void sum_tile(Tile& tile, const double* u, Scratch& scratch) const;
+  std::int32_t point_at(std::int32_t fast, std::int32_t middle, std::int32_t slow) const;
+  std::int32_t side() const { return 2 * reach_ + 1; }
+  std::size_t place_of(const Cell& from_point) const;  // in member_at_
+  Cell row_start(const Tile& tile, std::int32_t row) const;
+  std::int64_t local_rows(const Tile& tile) const;
+
+  double spacing_ = 0;
+  bool signed_volume_ = false;
+  std::array<std::size_t, 3> axis_{};  // the longest axis of the lattice is the fast one
+  Cell shape_{};
+  std::int32_t reach_ = 0, width_ = 0;   // cells; row length with what it reaches
+  std::vector<std::int32_t> point_;      // of each cell, or -1
+  std::vector<Cell> cell_;               // of each point
+  ShapeList ahead_, around_;             // of later points, in the order of cells; of all
+  std::vector<std::int32_t> distance_;   // of the members ahead in the arrays of a tile
+  std::vector<std::int32_t> member_at_;  // around, by cell from the point: slow, middle, fast
+  std::vector<double> volume_, inverse_;
+  std::int32_t largest_volume_ = 0;
+  std::vector<Tile> tiles_;
+  std::vector<Part> parts_;               // of each row, in the order of tiles
+  std::vector<std::int32_t> part_begin_;  // (rows+1)
+  std::vector<Scratch> scratch_;          // of each worker
+};
+
+}  // namespace cleave::cpd

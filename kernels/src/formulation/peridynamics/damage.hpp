@@ -1,0 +1,68 @@
+// Which bonds of a peridynamic body carry: cut before the start, broken by stretch, latched. It finds the
+// bonds that break and keeps bits for the kernels; what their breaking releases is not known here.
+//                                                                                     [PD damage, 12, 13]
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/thread_team.hpp"
+#include "formulation/peridynamics/neighbourhood.hpp"
+
+namespace cleave::peridynamics {
+
+enum Status : std::int32_t { kIntact = 0, kBroken = 1, kCut = 2 };
+
+class Damage {
+ public:
+  // limit: critical stretch; negative: bonds do not break.
+  void setup(Body& body, const Neighbourhood& hood, double limit);
+  // Bits and counts from the field bond_status.
+  void rebuild();
+
+  bool active() const { return limit_ >= 0; }
+  double limit() const { return limit_; }
+  bool intact(std::int32_t half) const { return bit(half); }
+  std::int32_t intact_count(std::int64_t i) const { return intact_[static_cast<std::size_t>(i)]; }
+  bool whole(std::int64_t i) const { return intact_count(i) == hood_->count(i); }
+  // Whether the bond may break: neither end in a zone without failure, not both ends driven.
+  bool may_break(std::int64_t i, std::int64_t p) const;
+  const std::uint64_t* bits() const { return bits_.data(); }
+  std::int32_t status(std::int64_t bond) const { return status_[bond]; }
+
+  // Intact bonds that are stretched beyond the limit and may break, in the order of bonds. `flag` (n) tells
+  // the points with a candidate among the bonds to higher neighbours.
+  void find(const double* x, const std::vector<char>& flag, std::vector<std::int32_t>& found) const;
+  void mark(std::int32_t bond, Status status);
+  // Bonds of a status.
+  std::int64_t count(Status status) const { return counts_[static_cast<std::size_t>(status)]; }
+  std::int64_t bytes() const;
+
+ private:
+  bool bit(std::int32_t half) const {
+    return ((bits_[static_cast<std::size_t>(half) >> 6] >> (half & 63)) & 1u) != 0;
+  }
+  void clear(std::int64_t i, std::int32_t half);
+
+  const Neighbourhood* hood_ = nullptr;
+  std::int32_t* status_ = nullptr;    // (bonds), the field
+  std::vector<std::uint64_t> bits_;   // 1: the half-bond carries; one word more than needed
+  std::vector<std::int32_t> intact_;  // (n) bonds that carry
+  std::vector<char> shield_;  // (n) 1: in a zone without failure, 2: driven in every direction
+  std::array<std::int64_t, 3> counts_{};  // by status
+  double limit_ = -1;
+};
+
+// (l - L)/L
+double stretch(const Neighbourhood& hood, const double* x, std::int64_t i, std::int64_t p);
+
+// A bond as it moves: n = x_ij/l, zero where l is; rate of l [m s-1].
+struct BondMotion {
+  double L = 0, l = 0, stretch = 0, rate = 0;
+  Vec<3> direction;
+};
+BondMotion bond_motion(const Neighbourhood& hood, const Body& body, std::int64_t i, std::int64_t p);
+
+}  // namespace cleave::peridynamics

@@ -1,0 +1,342 @@
+#include "formulation/peridynamics/formulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/instruction_set.hpp"
+#include "formulation/common/unused_groups.hpp"
+#include "tables/tables.hpp"
+
+CLEAVE_DECLARE_KERNELS(cleave_call::PairKernels, kPairKernels)
+
+namespace cleave::peridynamics {
+
+namespace {
+
+// Of the bound below 2/omega_max, which itself is safe by 1.4 and more.                 [PD step]
+constexpr double kSafety = 0.9;
+// First size of the lists of one step; they grow beyond it only in a step that breaks more.
+constexpr std::size_t kReserve = 65536;
+// A fit of the deformation needs a moment matrix with this reciprocal condition number.
+constexpr double kSingular = 1e-6;
+
+template <int D>
+bool fit(const Mat<3>& moment, const Mat<3>& sum, Mat<3>& h) {
+  Mat<D> k, s;
+  for (int r = 0; r < D; ++r)
+    for (int c = 0; c < D; ++c) {
+      k(r, c) = moment(r, c);
+      s(r, c) = sum(r, c);
+    }
+  const Mat<D> cof = cofactor(k);
+  const double det = determinant(k);
+  if (!(det > kSingular * std::sqrt(contract(k, k) * contract(cof, cof)))) return false;
+  const Mat<D> product = multiply(s, cof);
+  for (int r = 0; r < D; ++r)
+    for (int c = 0; c < D; ++c) h(r, c) = product(r, c) / det;
+  return true;
+}
+
+bool is_stress(std::string_view name) {
+  return name.find("stress") != std::string_view::npos || name == "pressure";
+}
+bool is_deformation(std::string_view name) {
+  return name == "displacement_gradient" || name == "volume_ratio" ||
+         name == "deformation_gradient" || name.find("strain_") != std::string_view::npos ||
+         name.find("_strain") != std::string_view::npos;
+}
+
+}  // namespace
+
+void Peridynamic::refuse_groups(const Body& body) const {
+  refuse_group(body, "viscosity", "leave it out, or apply it to other bodies");
+  refuse_group(body, "stabilisation", "bonds have no hourglass modes; leave it out");
+  refuse_group(body, "kernel", "its radius is horizon in group peridynamics");
+  refuse_group(body, "hourglass", "bonds have no hourglass modes; leave it out");
+  if (std::string_view(name()) != "cpd") refuse_group(body, "cpd", "it belongs to formulation cpd");
+}
+
+void Peridynamic::setup(Body& body, ThreadTeam&) {
+  refuse_groups(body);
+  const ParameterSet& options = body.group("peridynamics");
+  const double section = options.real("section"), horizon = options.real("horizon");
+  if (section > 0 && body.kinematics != CLEAVE_PLANE_STRESS) {
+    throw Error(CLEAVE_UNSUPPORTED,
+                text("group peridynamics of ", body.label(), ": section ", section,
+                     " [m2] makes it a bar, which needs kinematics plane_stress"));
+  }
+  dimension_ = section > 0 ? 1 : body.dimension();
+  use_lattice_ = options.choice("stencil") == static_cast<int>(Stencil::lattice);
+  elastic_ = elastic_constants(body);
+  hood_.build(body, dimension_, horizon, section);
+  const auto n = static_cast<std::size_t>(hood_.points);
+  reference_.assign(4 * n, 0.0);
+  now_.assign(4 * n, 0.0);
+  left_.assign(n, 0.0);
+  for (std::size_t i = 0; i < n; ++i) {
+    body.point.mass[i] = elastic_.density * hood_.volume[i];
+    for (std::size_t k = 0; k < 3; ++k) reference_[4 * i + k] = body.point.X[3 * i + k];
+    reference_[4 * i + 3] = hood_.volume[i];
+  }
+  damage_.setup(body, hood_, critical_stretch(body, elastic_, dimension_, horizon));
+  interactions_ = body.fields.real("interactions");
+  interactions_[0] = static_cast<double>(hood_.half_bonds());
+  prepare(body);
+  for (std::int64_t i = 0; i < hood_.points; ++i) reconnect(i);
+  stable_step_ = kSafety * 2 / std::sqrt(largest_rate(body));
+  flag_.assign(n, 0);
+  place_.assign(n, -1);
+  const std::size_t reserve = std::min(static_cast<std::size_t>(hood_.bonds()), kReserve);
+  for (auto* list : {&broken_, &touched_, &share_}) list->reserve(reserve);
+  release_.reserve(reserve);
+}
+
+void Peridynamic::rebuild(Body& body, ThreadTeam& team) {
+  damage_.rebuild();
+  for (std::int64_t i = 0; i < hood_.points; ++i) reconnect(i);
+  take_positions(body, team);
+}
+
+std::string Peridynamic::static_obstacle(const Body&) const {
+  return "it needs a gradient operator, which interactions do not have; use relaxation";
+}
+
+const PairKernels& Peridynamic::kernels() const { return CLEAVE_KERNELS(kPairKernels).chosen(); }
+
+PairArrays Peridynamic::pair_arrays(Body& body) const {
+  PairArrays a{};
+  a.row_begin = hood_.rows.row_begin.data();
+  a.bond_begin = hood_.bond_begin.data();
+  a.neighbour = hood_.rows.neighbour.data();
+  a.intact = damage_.bits();
+  a.now = now_.data();
+  a.reference = reference_.data();
+  a.left = left_.data();
+  a.force = body.point.internal;
+  a.energy = body.point.energy;
+  a.horizon = hood_.horizon;
+  return a;
+}
+
+void Peridynamic::take_positions(const Body& body, ThreadTeam& team) {
+  team_ = &team;
+  expect_workers(team.size());
+  gradient_observed_ = stress_observed_ = false;
+  for_blocks(team, hood_.points, [&](std::int64_t, std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+      for (std::int64_t k = 0; k < 3; ++k)
+        now_[static_cast<std::size_t>(4 * i + k)] = body.point.x[kVector * i + k];
+  });
+}
+
+void Peridynamic::deform(Body& body, const Clock&, ThreadTeam& team) { take_positions(body, team); }
+
+void Peridynamic::forces(Body& body, ThreadTeam& team) {
+  std::fill(body.point.viscous, body.point.viscous + kVector * hood_.points, 0.0);
+  act(body, team);
+}
+
+void Peridynamic::break_bonds(Body& body, const Clock& clock, ThreadTeam& team) {
+  if (!damage_.active()) return;
+  take_positions(body, team);
+  const PairArrays arrays = pair_arrays(body);
+  // A little below the limit, so that rounding hides none; who it is decides damage_.find.
+  const double limit = (1 + damage_.limit()) * (1 - 1e-12);
+  for_blocks(team, hood_.points, [&](std::int64_t, std::int64_t first, std::int64_t last) {
+    kernels().stretched(arrays, first, last, limit, flag_.data() + first);
+  });
+  damage_.find(body.point.x, flag_, broken_);
+  if (!broken_.empty()) break_found(body, clock, team);
+}
+
+// Breaks the bonds of broken_.
+void Peridynamic::break_found(Body& body, const Clock& clock, ThreadTeam& team) {
+  touched_.clear();
+  share_.clear();
+  for (const std::int32_t bond : broken_) {
+    hood_.for_bonds(bond, bond + 1,
+                    [&](std::int32_t, std::int64_t i, std::int32_t p, std::int32_t) {
+                      for (const std::int64_t end : {i, static_cast<std::int64_t>(p)}) {
+                        std::int32_t& at = place_[static_cast<std::size_t>(end)];
+                        if (at < 0) {
+                          at = static_cast<std::int32_t>(touched_.size());
+                          touched_.push_back(static_cast<std::int32_t>(end));
+                          share_.push_back(0);
+                        }
+                        ++share_[static_cast<std::size_t>(at)];
+                      }
+                    });
+  }
+  release_.assign(touched_.size(), 0.0);
+  release(body, clock, team, +1);
+  for (const std::int32_t bond : broken_) damage_.mark(bond, kBroken);
+  for (const std::int32_t i : touched_) reconnect(i);
+  release(body, clock, team, -1);
+  for (const double e : release_) body.point.ledger[ledger::kFracture] += e;
+  record_events(body, clock);
+  for (const std::int32_t i : touched_) place_[static_cast<std::size_t>(i)] = -1;
+}
+
+// The energy that a point has before and no longer has after, at the new positions, without the work that
+// the trapezoid of the force after the breaking books already.
+void Peridynamic::release(Body& body, const Clock& clock, ThreadTeam& team, double sign) {
+  team.for_blocks(static_cast<std::int64_t>(touched_.size()), [&](std::int64_t k, int worker) {
+    const auto at = static_cast<std::size_t>(k);
+    const PointEnergy e = point_energy(body, touched_[at], worker);
+    release_[at] += sign * (e.energy - 0.5 * clock.dt * e.rate);
+  });
+}
+
+// What a point releases goes to its broken bonds in equal parts, so the sum over bonds is the ledger's.
+void Peridynamic::record_events(Body& body, const Clock& clock) {
+  const auto part_of = [&](std::int64_t end) {
+    const auto at = static_cast<std::size_t>(place_[static_cast<std::size_t>(end)]);
+    return release_[at] / share_[at];
+  };
+  for (const std::int32_t bond : broken_) {
+    hood_.for_bonds(bond, bond + 1,
+                    [&](std::int32_t, std::int64_t i, std::int32_t p, std::int32_t) {
+                      cleave_event e{};
+                      e.size = sizeof(cleave_event);
+                      e.step = clock.step;
+                      e.time = clock.time;
+                      e.first = i;
+                      e.second = p;
+                      for (int k = 0; k < 3; ++k)
+                        e.midpoint[k] = 0.5 * (hood_.X[kVector * i + k] + hood_.X[kVector * p + k]);
+                      e.criterion = stretch(hood_, body.point.x, i, p);
+                      e.limit = damage_.limit();
+                      e.released = part_of(i) + part_of(p);
+                      body.events.push_back(e);
+                    });
+  }
+}
+
+void Peridynamic::precrack(Body& body, std::span<const std::int64_t> pairs) {
+  std::vector<std::int32_t> bonds;
+  for (std::size_t k = 0; k + 1 < pairs.size(); k += 2) {
+    const std::int64_t i = std::min(pairs[k], pairs[k + 1]), p = std::max(pairs[k], pairs[k + 1]);
+    const std::int32_t half = i < 0 || p >= hood_.points ? -1 : hood_.find_half(i, p);
+    if (half < 0) {
+      throw Error(
+          CLEAVE_BAD_ARGUMENT,
+          text(body.label(), ": particles ", body.number(pairs[k]), " and ",
+               body.number(pairs[k + 1]), " are not bonded; a pre-crack takes the ends of bonds"));
+    }
+    bonds.push_back(hood_.bond_of_upper(i, half));
+  }
+  for (const std::int32_t bond : bonds) damage_.mark(bond, kCut);
+  for (std::int64_t i = 0; i < hood_.points; ++i) reconnect(i);
+}
+
+StoredEnergy Peridynamic::stored_energy(const Body& body) const {
+  StoredEnergy e;
+  for (std::int64_t i = 0; i < hood_.points; ++i)
+    e.elastic += hood_.volume[i] * body.point.energy[i];
+  return e;
+}
+
+void Peridynamic::count(const Body&, cleave_counts& counts) const {
+  counts.bonds += hood_.bonds();
+  counts.simplices += hood_.simplices;
+  counts.broken += damage_.count(kBroken);
+  counts.inert += damage_.count(kCut);
+  for (std::int64_t i = 0; i < hood_.points; ++i) counts.isolated += damage_.intact_count(i) == 0;
+}
+
+bool Peridynamic::derive(const Body& body, std::string_view field, std::int64_t first,
+                         std::int64_t last, double* values) const {
+  if (field == "damage") {
+    for (std::int64_t i = first; i < last; ++i) {
+      const std::int32_t all = hood_.count(i);
+      values[i - first] = all == 0 ? 0.0 : 1 - static_cast<double>(damage_.intact_count(i)) / all;
+    }
+    return true;
+  }
+  if (field == "bond_stretch") {
+    hood_.for_bonds(first, last,
+                    [&](std::int32_t bond, std::int64_t i, std::int32_t p, std::int32_t) {
+                      values[bond - first] = stretch(hood_, body.point.x, i, p);
+                    });
+    return true;
+  }
+  if (field != "largest_stretch") return false;
+  for (std::int64_t i = first; i < last; ++i) {
+    double largest = -1;
+    for_carrying(i, [&](std::int32_t p, std::int32_t) {
+      largest = std::fmax(largest, stretch(hood_, body.point.x, i, p));
+    });
+    values[i - first] = damage_.intact_count(i) == 0 ? 0.0 : largest;
+  }
+  return true;
+}
+
+bool Peridynamic::derive_integers(const Body&, std::string_view field, std::int64_t first,
+                                  std::int64_t last, std::int64_t* values) const {
+  if (field != "bond_ends") return false;
+  hood_.for_bonds(first, last,
+                  [&](std::int32_t bond, std::int64_t i, std::int32_t p, std::int32_t) {
+                    values[2 * (bond - first)] = i;
+                    values[2 * (bond - first) + 1] = p;
+                  });
+  return true;
+}
+
+// H that fits the bonds which carry best, weighed by volumes: exact for affine motion.
+Mat<3> Peridynamic::fitted_gradient(const Body& body, std::int64_t i) const {
+  Mat<3> moment, sum, h;
+  for_carrying(i, [&](std::int32_t p, std::int32_t) {
+    const Vec<3> d = difference<3>(hood_.X, i, p), u = difference<3>(body.point.u, i, p);
+    Vec<3> weighed;
+    for (int k = 0; k < 3; ++k) weighed[k] = hood_.volume[p] * d[k];
+    add_dyad(moment, d, weighed);
+    add_dyad(sum, u, weighed);
+  });
+  if (dimension_ == 1) {
+    if (moment(0, 0) > 0) h(0, 0) = sum(0, 0) / moment(0, 0);
+    return h;
+  }
+  if (dimension_ == 2) {
+    fit<2>(moment, sum, h);
+  } else {
+    fit<3>(moment, sum, h);
+  }
+  return h;
+}
+
+// The stress that a plane condition adds: sigma_33 of plane strain.
+Mat<3> Peridynamic::stress_with_plane(const Body& body, std::int64_t i, int worker) const {
+  Mat<3> p = point_stress(body, i, worker);
+  if (body.kinematics == CLEAVE_PLANE_STRAIN) p(2, 2) = elastic_.nu * (p(0, 0) + p(1, 1));
+  return p;
+}
+
+void Peridynamic::observe(Body& body, std::string_view field) {
+  const bool wants_stress = is_stress(field) && !stress_observed_;
+  const bool wants_gradient = (is_stress(field) || is_deformation(field)) && !gradient_observed_;
+  if (!wants_stress && !wants_gradient) return;
+  ThreadTeam alone;
+  ThreadTeam& team = team_ == nullptr ? alone : *team_;
+  constexpr std::int64_t kSmall = 32;  // points: a stress may be dear
+  team.for_blocks((hood_.points + kSmall - 1) / kSmall, [&](std::int64_t block, int worker) {
+    for (std::int64_t i = block * kSmall; i < std::min(hood_.points, (block + 1) * kSmall); ++i) {
+      if (wants_gradient) {
+        const Mat<3> h = fitted_gradient(body, i);
+        store_tensor(h, body.point.h, i);
+        body.point.ratio[i] = determinant(plus_identity(h));
+      }
+      if (wants_stress) store_tensor(stress_with_plane(body, i, worker), body.point.p, i);
+    }
+  });
+  gradient_observed_ = gradient_observed_ || wants_gradient;
+  stress_observed_ = stress_observed_ || wants_stress;
+}
+
+std::int64_t Peridynamic::bytes() const {
+  return hood_.bytes() + damage_.bytes() +
+         static_cast<std::int64_t>((now_.capacity() + reference_.capacity() + left_.capacity()) *
+                                   sizeof(double)) +
+         static_cast<std::int64_t>(flag_.capacity() + place_.capacity() * sizeof(std::int32_t));
+}
+
+}  // namespace cleave::peridynamics

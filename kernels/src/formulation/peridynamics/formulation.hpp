@@ -1,0 +1,116 @@
+// What all peridynamic formulations have in common: points with a neighbourhood, bonds that break by
+// stretch, the release of their energy, and what is shown of them. How points interact is left to the
+// formulations themselves.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/aligned.hpp"
+#include "core/blocks.hpp"
+#include "core/thread_team.hpp"
+#include "formulation/peridynamics/constants.hpp"
+#include "formulation/peridynamics/damage.hpp"
+#include "formulation/peridynamics/neighbourhood.hpp"
+#include "formulation/peridynamics/pair_kernels.hpp"
+
+namespace cleave::peridynamics {
+
+// Energy of the interactions that a point counts as its own [J], and its rate with the velocities [W].
+struct PointEnergy {
+  double energy = 0, rate = 0;
+};
+
+class Peridynamic : public Formulation {
+ public:
+  bool takes_volumes() const override { return true; }
+  void setup(Body& body, ThreadTeam& team) override;
+  void rebuild(Body& body, ThreadTeam& team) override;
+  double stable_step(const Body&) const override { return stable_step_; }
+  std::string static_obstacle(const Body&) const override;
+
+  void break_bonds(Body& body, const Clock& clock, ThreadTeam& team) override;
+  void deform(Body& body, const Clock& clock, ThreadTeam& team) override;
+  void forces(Body& body, ThreadTeam& team) override;
+  void precrack(Body& body, std::span<const std::int64_t> pairs) override;
+
+  StoredEnergy stored_energy(const Body& body) const override;
+  double hourglass_energy(const Body&) const override { return 0; }
+  void count(const Body& body, cleave_counts& counts) const override;
+  bool derive(const Body& body, std::string_view field, std::int64_t first, std::int64_t last,
+              double* values) const override;
+  bool derive_integers(const Body& body, std::string_view field, std::int64_t first,
+                       std::int64_t last, std::int64_t* values) const override;
+  void observe(Body& body, std::string_view field) override;
+  std::int64_t bytes() const override;
+
+ protected:
+  // Constants and weights, after the neighbourhood is known. Sets the interactions besides bonds.
+  virtual void prepare(Body& body) = 0;
+  // Largest eigenvalue of M^-1 K, or a bound above it [s-2].
+  virtual double largest_rate(const Body& body) const = 0;
+  // Scratch for so many workers at the same time.
+  virtual void expect_workers(int) {}
+  // Other bonds of point i carry than before.
+  virtual void reconnect(std::int64_t) {}
+  // Sets the internal force of all points and their energy per volume.
+  virtual void act(Body& body, ThreadTeam& team) = 0;
+  // worker: tells apart who asks at the same time.
+  virtual PointEnergy point_energy(const Body& body, std::int64_t i, int worker) const = 0;
+  // P of the own interactions of a point, D x D components; what follows from a plane condition is added
+  // by the caller.                                                                    [PD stress]
+  virtual Mat<3> point_stress(const Body& body, std::int64_t i, int worker) const = 0;
+
+  PairArrays pair_arrays(Body& body) const;
+  const PairKernels& kernels() const;
+  // 2 sum_j w_ij / L_ij / m_i, the largest over points; weight(i, p)
+  template <class W>
+  double pair_rate(const Body& body, const W& weight) const {
+    double largest = 0;
+    for (std::int64_t i = 0; i < hood_.points; ++i) {
+      double sum = 0;
+      for (auto b = hood_.first(i); b < hood_.last(i); ++b) {
+        const std::int32_t p = hood_.neighbour(b);
+        sum += weight(i, p) / hood_.length(i, p);
+      }
+      largest = std::fmax(largest, 2 * sum / body.point.mass[i]);
+    }
+    return largest;
+  }
+  // f(neighbour, half) for the bonds of i that carry.
+  template <class F>
+  void for_carrying(std::int64_t i, const F& f) const {
+    for (auto b = hood_.first(i); b < hood_.last(i); ++b)
+      if (damage_.intact(b)) f(hood_.neighbour(b), b);
+  }
+
+  Neighbourhood hood_;
+  Damage damage_;
+  Elastic elastic_;
+  int dimension_ = 3;  // 1: a bar
+  bool use_lattice_ = true;
+  AlignedReals now_, reference_;  // (4,n) x y z right; X Y Z volume
+  std::vector<double> left_;      // (n) weights of the pair kernels
+  double* interactions_ = nullptr;
+
+ private:
+  void refuse_groups(const Body& body) const;
+  void take_positions(const Body& body, ThreadTeam& team);
+  void break_found(Body& body, const Clock& clock, ThreadTeam& team);
+  void release(Body& body, const Clock& clock, ThreadTeam& team, double sign);
+  void record_events(Body& body, const Clock& clock);
+  Mat<3> fitted_gradient(const Body& body, std::int64_t i) const;
+  Mat<3> stress_with_plane(const Body& body, std::int64_t i, int worker) const;
+
+  double stable_step_ = 0;
+  std::vector<char> flag_;             // (n) a bond may be beyond its limit
+  std::vector<std::int32_t> broken_;   // bonds of the step being done
+  std::vector<std::int32_t> touched_;  // their ends, each once
+  std::vector<std::int32_t> place_;    // (n) in touched_, or -1
+  std::vector<std::int32_t> share_;    // broken bonds of a touched point
+  std::vector<double> release_;        // of a touched point
+  ThreadTeam* team_ = nullptr;         // of the model, for what is asked between steps
+  bool gradient_observed_ = false, stress_observed_ = false;
+};
+
+}  // namespace cleave::peridynamics
