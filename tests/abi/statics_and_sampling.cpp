@@ -17,6 +17,11 @@ TEST_F(Arguments, NullIsRefusedByStaticsAndSampling) {
         [] { return cleave_static_options_init(nullptr); }},
        {"cleave_model_solve_static", "'model'",
         [] { return cleave_model_solve_static(nullptr, 0, nullptr, nullptr); }},
+       {"cleave_relaxation_options_init", "'options'",
+        [] { return cleave_relaxation_options_init(nullptr); }},
+       {"cleave_model_relax", "'model'",
+        [] { return cleave_model_relax(nullptr, 0, nullptr, nullptr); }},
+       {"cleave_model_relax_cancel", "'model'", [] { return cleave_model_relax_cancel(nullptr); }},
        {"cleave_body_locate", "'model'",
         [&] { return cleave_body_locate(nullptr, 0, 1, X, &simplex, weight); }},
        {"cleave_body_locate", "'X'",
@@ -102,12 +107,20 @@ TEST_F(Arguments, StaticsAndSamplingHaveTheirPlaceInTheOrder) {
        {"cleave_model_solve_static", "cleave_model_initialise",
         [&] { return cleave_model_solve_static(fresh, 1, nullptr, nullptr); }},
        {"cleave_model_solve_static", "cleave_model_initialise",
-        [&] { return cleave_model_solve_static(ready, 1, nullptr, nullptr); }}},
+        [&] { return cleave_model_solve_static(ready, 1, nullptr, nullptr); }},
+       {"cleave_model_relax", "cleave_model_initialise",
+        [&] { return cleave_model_relax(fresh, 1, nullptr, nullptr); }},
+       {"cleave_model_relax", "cleave_model_initialise",
+        [&] { return cleave_model_relax(ready, 1, nullptr, nullptr); }},
+       {"cleave_model_relax_cancel", "nothing is being relaxed",
+        [&] { return cleave_model_relax_cancel(ready); }}},
       CLEAVE_WRONG_ORDER);
   ready.initialise();
   ok(cleave_model_advance(ready, 1e-9, 1e-9));
   expect_refused({{"cleave_model_solve_static", "between two steps",
-                   [&] { return cleave_model_solve_static(ready, 1, nullptr, nullptr); }}},
+                   [&] { return cleave_model_solve_static(ready, 1, nullptr, nullptr); }},
+                  {"cleave_model_relax", "between two steps",
+                   [&] { return cleave_model_relax(ready, 1, nullptr, nullptr); }}},
                  CLEAVE_WRONG_ORDER);
 }
 
@@ -185,6 +198,45 @@ TEST_F(StaticCall, ReportsWhatItDid) {
   EXPECT_EQ(step, 1);
   EXPECT_EQ(time, 2.5);
   for (const double v : model.real("velocity")) EXPECT_EQ(v, 0.0);
+}
+
+TEST_F(StaticCall, RelaxationRefusesWhatIsOutOfRange) {
+  cleave_relaxation_options relaxation{};
+  ok(cleave_relaxation_options_init(&relaxation));
+  EXPECT_EQ(relaxation.size, static_cast<int64_t>(sizeof relaxation));
+  EXPECT_EQ(relaxation.tolerance, 1e-6);
+  EXPECT_EQ(relaxation.max_iterations, 100000);
+  EXPECT_EQ(relaxation.slice, 0);
+  EXPECT_EQ(relaxation.breaking, CLEAVE_BREAKING_ALL);
+  cleave_relaxation_options bad = relaxation;
+  const auto refused = [&](const char* part) {
+    expect_refused(
+        {{"cleave_model_relax", part, [&] { return cleave_model_relax(model, 1, &bad, nullptr); }}},
+        CLEAVE_BAD_ARGUMENT);
+    bad = relaxation;
+  };
+  bad.tolerance = std::nan("");
+  refused("tolerance is nan");
+  bad.max_iterations = 0;
+  refused("max_iterations 0");
+  bad.slice = -1;
+  refused("slice -1");
+  bad.breaking = 3;
+  refused("CLEAVE_BREAKING_ONE");
+  bad.size = 8;
+  cleave_relaxation_report report{};
+  report.size = 4096;
+  expect_refused({{"cleave_model_relax", "cleave_relaxation_options_init",
+                   [&] { return cleave_model_relax(model, 1, &bad, nullptr); }},
+                  {"cleave_model_relax", "'report'",
+                   [&] { return cleave_model_relax(model, 1, &relaxation, &report); }}},
+                 CLEAVE_ABI_MISMATCH);
+  EXPECT_EQ(steps(), 0);
+  report.size = sizeof report;
+  ok(cleave_model_relax(model, 2.5, &relaxation, &report));
+  EXPECT_EQ(report.unknowns, 2 * 16 - 3);
+  EXPECT_EQ(report.finished, 1);
+  EXPECT_EQ(steps(), 1);
 }
 
 }  // namespace

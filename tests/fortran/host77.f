@@ -331,6 +331,16 @@ C     A MODEL BY ITS HANDLE, AND ANOTHER BESIDE IT
       CALL CLMMEM(MOD, BYTES, IERR)
       CALL CHECK(IERR)
       IF (BYTES .LT. 1000) CALL CHMISS('BYTES OF A MODEL')
+      NC(1) = 0
+      NC(3) = 1
+      CALL CLRELX(MOD, T, 1D-9, 0, 1, 5, NC(1), NC(2), D, NC(3), IERR)
+      CALL CHECK(IERR)
+      IF (NC(1) .LT. 5 .OR. NC(3) .NE. 0) CALL CHMISS('A SLICE')
+      CALL CLRLXC(MOD, IERR)
+      CALL CHECK(IERR)
+      CALL CLFGTR(MOD, IBODY, 'displacement', 1, N, 3, U, IERR)
+      CALL CHECK(IERR)
+      CALL CHSAMR('run_displacement', U, 3*N)
       CALL CLMDEL(MOD, IERR)
       CALL CHECK(IERR)
       END

@@ -25,6 +25,8 @@ program layouts
   call body_spec_layout()
   call static_options_layout()
   call static_report_layout()
+  call relaxation_options_layout()
+  call relaxation_report_layout()
   call event_layout()
   call energies_layout()
   call counts_layout()
@@ -210,6 +212,35 @@ contains
     call same('residual of cleave_static_report', b, c_loc(s(1)%residual))
     call last_member('cleave_static_report')
   end subroutine static_report_layout
+
+  subroutine relaxation_options_layout()
+    type(cleave_relaxation_options), target :: s(2)
+    type(c_ptr) :: b
+    b = c_loc(s(1))
+    call same('size of cleave_relaxation_options', b, c_loc(s(2)))
+    call same('size of cleave_relaxation_options', b, c_loc(s(1)%size))
+    call same('tolerance of cleave_relaxation_options', b, c_loc(s(1)%tolerance))
+    call same('max_iterations of cleave_relaxation_options', b, c_loc(s(1)%max_iterations))
+    call same('slice of cleave_relaxation_options', b, c_loc(s(1)%slice))
+    call same('breaking of cleave_relaxation_options', b, c_loc(s(1)%breaking))
+    call same('reserved of cleave_relaxation_options', b, c_loc(s(1)%reserved))
+    call last_member('cleave_relaxation_options')
+  end subroutine relaxation_options_layout
+
+  subroutine relaxation_report_layout()
+    type(cleave_relaxation_report), target :: s(2)
+    type(c_ptr) :: b
+    b = c_loc(s(1))
+    call same('size of cleave_relaxation_report', b, c_loc(s(2)))
+    call same('size of cleave_relaxation_report', b, c_loc(s(1)%size))
+    call same('iterations of cleave_relaxation_report', b, c_loc(s(1)%iterations))
+    call same('rounds of cleave_relaxation_report', b, c_loc(s(1)%rounds))
+    call same('broken of cleave_relaxation_report', b, c_loc(s(1)%broken))
+    call same('unknowns of cleave_relaxation_report', b, c_loc(s(1)%unknowns))
+    call same('finished of cleave_relaxation_report', b, c_loc(s(1)%finished))
+    call same('residual of cleave_relaxation_report', b, c_loc(s(1)%residual))
+    call last_member('cleave_relaxation_report')
+  end subroutine relaxation_report_layout
 
   subroutine event_layout()
     type(cleave_event), target :: s(2)

@@ -215,6 +215,8 @@ contains
     type(cleave_model) :: model
     type(cleave_static_options) :: options
     type(cleave_static_report) :: report
+    type(cleave_relaxation_options) :: relaxation
+    type(cleave_relaxation_report) :: relaxed
     integer, allocatable :: particle(:), direction(:)
     integer(c_int32_t), allocatable :: motion(:)
     real(c_double), allocatable :: led_to(:), u(:)
@@ -245,6 +247,22 @@ contains
     call same_reals('static_displacement', u)
     call same_reals('static_residual', [report%residual])
     call same_integers('static_report', [report%iterations, report%unknowns])
+    led_to(1) = 2e-4_c_double
+    call ok(cleave_body_motion(model, body, led_to))
+    call ok(cleave_relaxation_options_init(relaxation))
+    relaxation%slice = 10
+    call ok(cleave_model_relax(model, 2.0_c_double, relaxation, relaxed))
+    call require(.not. relaxed%finished, 'a slice is not enough')
+    call ok(cleave_model_relax_cancel(model))
+    do
+      call ok(cleave_model_relax(model, 2.0_c_double, relaxation, relaxed))
+      if (relaxed%finished) exit
+    end do
+    call ok(cleave_field_get_real(model, body, 'displacement', 1, n, u))
+    call same_reals('relaxed_displacement', u)
+    call same_reals('relaxed_residual', [relaxed%residual])
+    call same_integers('relaxed_report', [relaxed%iterations, relaxed%rounds, relaxed%broken, &
+        relaxed%unknowns])
     call ok(cleave_model_destroy(model))
   end subroutine statics
 end program model_calls

@@ -267,7 +267,7 @@ void model_run(const SimplexMesh& m, std::int32_t kinematics) {
   ok(cleave_model_destroy(model));
 }
 
-// One corner pushed by Newton's method, the others held.
+// One corner pushed by Newton's method, then further by relaxation, the others held.
 void statics(const SimplexMesh& m, std::int32_t kinematics) {
   cleave_model* model = nullptr;
   ok(cleave_model_create(CLEAVE_ABI_VERSION, &model));
@@ -296,6 +296,14 @@ void statics(const SimplexMesh& m, std::int32_t kinematics) {
   reals["static_displacement"] = real_field(model, "displacement");
   reals["static_residual"] = {report.residual};
   integers["static_report"] = {report.iterations, report.unknowns};
+  u[0] = 2e-4;
+  ok(cleave_body_motion(model, body, count, u.data(), nullptr));
+  cleave_relaxation_report relaxed = sized<cleave_relaxation_report>();
+  ok(cleave_model_relax(model, 2.0, nullptr, &relaxed));
+  reals["relaxed_displacement"] = real_field(model, "displacement");
+  reals["relaxed_residual"] = {relaxed.residual};
+  integers["relaxed_report"] = {relaxed.iterations, relaxed.rounds, relaxed.broken,
+                                relaxed.unknowns};
   ok(cleave_model_destroy(model));
 }
 

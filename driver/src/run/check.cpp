@@ -40,8 +40,13 @@ void say_bodies(const Scene& scene) {
   }
 }
 
-// Seconds a step, from a few steps. The model is spoiled for a run afterwards.
-double time_a_step(Scene& scene, const Clock& clock) {
+struct StepCost {
+  double seconds = 0;
+  bool at_least = false;  // it was not waited for
+};
+
+// From a few steps. The model is spoiled for a run afterwards.
+StepCost time_a_step(Scene& scene, const Clock& clock) {
   using WallClock = std::chrono::steady_clock;
   const Stepping stepping(scene.deck());
   stepping.start(scene, clock.dt);
@@ -51,11 +56,14 @@ double time_a_step(Scene& scene, const Clock& clock) {
   };
   constexpr Index kSteps = 50;
   constexpr double kSeconds = 1.0;
+  constexpr double kPatience = 10.0;  // for a step by relaxation
   Index step = 0;
+  const auto watch = [&](const StepReport&) { return seconds() < kPatience; };
   while (step < std::min(kSteps, clock.steps) && seconds() < kSeconds) {
-    stepping.step(scene, clock, step++);
+    if (!stepping.step(scene, clock, step++, watch).finished)
+      return {seconds() / static_cast<double>(step), true};
   }
-  return seconds() / static_cast<double>(step);
+  return {seconds() / static_cast<double>(step), false};
 }
 
 }  // namespace
@@ -68,9 +76,9 @@ int check_deck(const Deck& deck, const RunOptions& options) {
   // Requests for output are checked like those of a run.
   const ResultsFile results(scene);
   const HistoryFile history(scene);
-  double seconds = 0;
+  StepCost cost;
   try {
-    seconds = time_a_step(scene, step.clock);
+    cost = time_a_step(scene, step.clock);
   } catch (const KernelError& error) {
     throw RunError(std::string("the first steps failed: ") + error.what());
   }
@@ -85,9 +93,10 @@ int check_deck(const Deck& deck, const RunOptions& options) {
     say("step " + number(step.clock.dt) + ", " + number(step.clock.steps) + " steps" + end);
   }
   for (const std::string& warning : step.warnings) say("warning: " + warning);
-  const double total = seconds * static_cast<double>(step.clock.steps);
-  say("estimated " + number(total / 3600, 3) + " hours (" + duration_text(total) + ") on " +
-      std::to_string(threads) + (threads == 1 ? " thread" : " threads") + ", without output");
+  const double total = cost.seconds * static_cast<double>(step.clock.steps);
+  say(std::string("estimated ") + (cost.at_least ? "at least " : "") + number(total / 3600, 3) +
+      " hours (" + duration_text(total) + ") on " + std::to_string(threads) +
+      (threads == 1 ? " thread" : " threads") + ", without output");
   say("the deck is good");
   return 0;
 }

@@ -52,6 +52,16 @@ CheckpointVerdict CheckpointTrigger::after_step(std::int64_t step, double wall,
   return {};
 }
 
+CheckpointVerdict CheckpointTrigger::within_step(double wall,
+                                                 const CheckpointRequests& requests) const {
+  using enum CheckpointAction;
+  if (requests.stop) return {stop, "stopped on request"};
+  if (requests.stop_file) return {stop, "stopped by the stop file"};
+  if (wall_.limit > 0 && wall + checkpoint_time() > wall_.limit)
+    return {stop, "stopped for the wall-time limit of " + duration_text(wall_.limit)};
+  return {};
+}
+
 void CheckpointTrigger::attempted(double from, double to) {
   cost_ = measured_ ? std::max(cost_, to - from) : to - from;
   measured_ = true;

@@ -51,6 +51,8 @@ class CheckpointTrigger {
   // After every step. The limit is judged after a step only, so that a run that is started over and
   // over makes progress even if its set-up takes all the time.
   CheckpointVerdict after_step(std::int64_t step, double wall, const CheckpointRequests& requests);
+  // In the middle of a step that takes long, whose start is kept: stop, or none.
+  CheckpointVerdict within_step(double wall, const CheckpointRequests& requests) const;
   // A checkpoint was written, or tried in vain, between these wall times.
   void attempted(double from, double to);
 

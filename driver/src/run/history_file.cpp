@@ -23,7 +23,8 @@ constexpr EnergyColumn kEnergies[] = {
     {"plastic", &cleave_energies::plastic, "plastic work"},
     {"stabilisation", &cleave_energies::stabilisation, "energy stored by the stabilisation"},
     {"fracture", &cleave_energies::fracture, "energy released by breaking bonds"},
-    {"viscous", &cleave_energies::viscous, "energy dissipated by artificial viscosity"},
+    {"viscous", &cleave_energies::viscous,
+     "energy dissipated by artificial viscosity, or by the damping of relaxation"},
     {"external", &cleave_energies::external, "work of external forces"},
     {"reaction", &cleave_energies::reaction, "work of the forces that keep prescribed motion"},
     {"internal", &cleave_energies::internal, "work done against internal forces"},
@@ -60,7 +61,8 @@ Index nearest_particle(const BodyGeometry& body, const std::vector<double>& poin
 
 }  // namespace
 
-HistoryFile::HistoryFile(const Scene& scene) : units_(scene.deck().one("run").text("units")) {
+HistoryFile::HistoryFile(const Scene& scene)
+    : units_(scene.deck().one("run").text("units")), relaxes_(Stepping(scene.deck()).relaxes()) {
   const UnitText units(units_);
   add_column("step", "1", "number of steps done", true);
   add_column("time", units("s"), "time");
@@ -73,6 +75,11 @@ HistoryFile::HistoryFile(const Scene& scene) : units_(scene.deck().one("run").te
   }
   add_loads(scene);
   add_sections(scene);
+  if (relaxes_) {
+    add_column("iterations", "1", "evaluations of the forces in this increment", true);
+    add_column("breaking_rounds", "1", "equilibria of this increment in which bonds broke", true);
+    add_column("residual", "1", "norm of the unbalanced forces over that of all forces");
+  }
   for (const DeckGroup* probe : scene.deck().all("probe")) add_probe(scene, *probe);
   for (Index body = 0; body < scene.model().bodies(); ++body) {
     mass_.push_back(scene.model().reals(body, "mass"));
@@ -217,7 +224,8 @@ void HistoryFile::reopen(const FileNames& names, const Scene& scene, Index recor
   table_ = io::RecordTable::reopen(names.history(), csv_path(names, scene), columns_, records);
 }
 
-void HistoryFile::write(Scene& scene, Index step, double time, const cleave_energies& energies) {
+void HistoryFile::write(Scene& scene, Index step, double time, const cleave_energies& energies,
+                        const StepReport& report) {
   Model& model = scene.model();
   record_.clear();
   record_.push_back(static_cast<double>(step));
@@ -237,6 +245,10 @@ void HistoryFile::write(Scene& scene, Index step, double time, const cleave_ener
   for (const Sections::Section& section : scene.sections().resultants(model)) {
     for (int k = 0; k < (section.plane ? 2 : 3); ++k) record_.push_back(section.force[k]);
     for (int k = section.plane ? 2 : 0; k < 3; ++k) record_.push_back(section.moment[k]);
+  }
+  if (relaxes_) {
+    record_.insert(record_.end(), {static_cast<double>(report.iterations),
+                                   static_cast<double>(report.rounds), report.residual});
   }
   for (const Probe& probe : probes_) add_probe_values(model, probe);
   table_->append(record_);

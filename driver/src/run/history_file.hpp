@@ -8,13 +8,14 @@
 #include "io/record_table.hpp"
 #include "run/file_names.hpp"
 #include "run/schedule.hpp"
+#include "run/stepping.hpp"
 #include "scene/scene.hpp"
 
 namespace cleave::driver {
 
 // Columns: step, time; the energies of cleave_energies; broken, inert, isolated, inverted;
 // momentum; for every prescribed motion its reaction_NAME_x.., for every force its force_NAME_x..;
-// for every section its force and moment; probes.
+// for every section its force and moment; in relaxation what the increment took; probes.
 class HistoryFile {
  public:
   // Throws DeckError: an unknown field or place of a probe, two columns of one name.
@@ -22,7 +23,9 @@ class HistoryFile {
 
   void create(const FileNames& names, const Scene& scene, const Clock& clock);
   void reopen(const FileNames& names, const Scene& scene, std::int64_t records);
-  void write(Scene& scene, std::int64_t step, double time, const cleave_energies& energies);
+  // report: of the step that led here.
+  void write(Scene& scene, std::int64_t step, double time, const cleave_energies& energies,
+             const StepReport& report);
   void flush() { table_->flush(); }
   void sync() { table_->sync(); }
   std::int64_t records() const { return table_->records(); }
@@ -56,6 +59,7 @@ class HistoryFile {
   std::vector<double> record_, real_;
   std::vector<std::int64_t> integer_;
   std::string units_;
+  bool relaxes_;
   std::optional<io::RecordTable> table_;
 };
 

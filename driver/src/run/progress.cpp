@@ -48,6 +48,15 @@ std::set<std::string> sources(const Deck& deck) {
   return found;
 }
 
+std::string relaxation_text(const Clock& clock, std::int64_t step, const StepReport& report) {
+  const auto count = [](std::int64_t n, const std::string& one) {
+    return number(n) + " " + one + (n == 1 ? "" : "s");
+  };
+  return "increment " + number(step) + "/" + number(clock.steps) + ": " +
+         count(report.iterations, "iteration") + ", residual " + number(report.residual, 2) + ", " +
+         count(report.broken, "bond") + " broken in " + count(report.rounds, "round");
+}
+
 }  // namespace
 
 std::string duration_text(double seconds) {
@@ -70,7 +79,8 @@ Progress::Progress(bool quiet, const DeckGroup& run)
       terminal_(isatty(STDOUT_FILENO) != 0),
       every_(run.real("status_every")),
       begin_(WallClock::now()),
-      last_(begin_) {}
+      last_(begin_),
+      last_relaxing_(begin_) {}
 
 void Progress::print(const std::string& text, bool stays) {
   if (quiet_) return;
@@ -111,6 +121,8 @@ void Progress::banner(const Scene& scene, const TimeStep& step, std::int64_t fir
        number(step.clock.time(step.clock.steps)) +
        (first_step > 0 ? ", continued after step " + number(first_step) : ""));
   for (const std::string& source : sources(deck)) note("  method " + source);
+  if (statics && deck.one("static").text("method") == "relaxation")
+    note("  method relaxation: Kilic and Madenci, Theor. Appl. Fract. Mech. 53 (2010) 194");
   for (const std::string& warning : step.warnings) warn(warning);
   begin_ = last_ = WallClock::now();
 }
@@ -146,6 +158,18 @@ void Progress::status(const Model& model, const Clock& clock, std::int64_t step,
           number(scale > 0 ? e.balance / scale : 0.0, 2) + "  broken " + number(counts.broken);
   line += "  " + number(rate / 1e6, 3) + " M/s  ETA " + duration_text(left);
   print(line, false);
+}
+
+void Progress::relaxing(const Clock& clock, std::int64_t step, const StepReport& so_far) {
+  const auto now = WallClock::now();
+  if (std::chrono::duration<double>(now - last_relaxing_).count() < every_) return;
+  last_relaxing_ = now;
+  print(relaxation_text(clock, step, so_far) + ", relaxing", false);
+}
+
+void Progress::relaxed(const Clock& clock, std::int64_t step, const StepReport& report) {
+  last_relaxing_ = WallClock::now();
+  note(relaxation_text(clock, step, report));
 }
 
 void Progress::finish(const std::string& what, const std::vector<std::string>& files) {

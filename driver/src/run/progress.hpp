@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "run/stepping.hpp"
 #include "run/time_step.hpp"
 #include "scene/scene.hpp"
 
@@ -23,6 +24,9 @@ class Progress {
   // Whether the wall time between status lines has passed.
   bool due() const;
   void status(const Model& model, const Clock& clock, std::int64_t step, const cleave_energies& e);
+  // One static increment by relaxation: while it is sought, now and then, and what it took.
+  void relaxing(const Clock& clock, std::int64_t step, const StepReport& so_far);
+  void relaxed(const Clock& clock, std::int64_t step, const StepReport& report);
   void finish(const std::string& what, const std::vector<std::string>& files);
 
   double seconds() const;  // since the run began
@@ -33,7 +37,7 @@ class Progress {
 
   bool quiet_, terminal_;
   double every_;
-  WallClock::time_point begin_, last_;
+  WallClock::time_point begin_, last_, last_relaxing_;
   std::int64_t first_step_ = 0, last_step_ = 0, particles_ = 0;
   int warnings_ = 0;
   bool line_open_ = false;

@@ -72,7 +72,7 @@ int Simulation::run() {
   try {
     stepping_.start(scene_, step_.clock.dt);
     const cleave_energies energies = finite_energies(0);
-    history_.write(scene_, 0, 0.0, energies);
+    history_.write(scene_, 0, 0.0, energies, {});
     results_.write_frame(scene_, 0.0, energies);
   } catch (const KernelError& error) {
     throw RunError(std::string("the run failed at its start: ") + error.what());
@@ -116,7 +116,8 @@ std::string Simulation::steps(Index& step, Signals& signals) {
   const Index last = step_.clock.steps;
   std::string stopped;
   while (step < last && stopped.empty()) {
-    stepping_.step(scene_, step_.clock, step);
+    stopped = one_step(step, signals);
+    if (!stopped.empty()) break;
     ++step;
     after_step(step);
     const double wall = seconds_since_start();
@@ -136,12 +137,32 @@ std::string Simulation::steps(Index& step, Signals& signals) {
   return stopped;
 }
 
+// Only a relaxation can be stopped half-way: back to the last increment, from which it begins anew.
+std::string Simulation::one_step(Index step, Signals& signals) {
+  std::string why;
+  const auto watch = [&](const StepReport& so_far) {
+    progress_.relaxing(step_.clock, step + 1, so_far);
+    const double wall = seconds_since_start();
+    why = trigger_.within_step(wall, {false, signals.stop_requested(), stop_file_.appeared(wall)})
+              .why;
+    return why.empty();
+  };
+  report_ = stepping_.step(scene_, step_.clock, step, watch);
+  if (!report_.finished) return why;
+  if (stepping_.relaxes()) progress_.relaxed(step_.clock, step + 1, report_);
+  return "";
+}
+
 void Simulation::after_step(Index step) {
   events_.collect(scene_, scene_.model(), step);
   write_outputs(step);
+  if (stepping_.is_static()) {  // dear enough for a copy: a later increment may fail or be stopped
+    finite_energies(step);
+    good_.take(scene_, step, cursors());
+  }
   if (progress_.due()) {
     const cleave_energies energies = finite_energies(step);
-    good_.take(scene_, step, cursors());
+    if (!stepping_.is_static()) good_.take(scene_, step, cursors());
     progress_.status(scene_.model(), step_.clock, step, energies);
   }
 }
@@ -153,9 +174,9 @@ void Simulation::write_outputs(Index step) {
   const bool frame = last || result_schedule_.due(step);
   if (!record && !frame) return;
   const cleave_energies energies = finite_energies(step);
-  if (record) history_.write(scene_, step, time, energies);
+  if (record) history_.write(scene_, step, time, energies, report_);
   if (frame) results_.write_frame(scene_, time, energies);
-  if (record) keep_good_state(step);
+  if (record && !stepping_.is_static()) keep_good_state(step);
 }
 
 // A copy at every record costs little in a long run and much in one with a record a step.
@@ -182,8 +203,11 @@ const cleave_energies& Simulation::finite_energies(Index step) {
 
 bool Simulation::write_checkpoint(Index step) {
   const double begin = seconds_since_start();
-  finite_energies(step);
-  good_.take(scene_, step, cursors());
+  if (!stepping_
+           .is_static()) {  // there it is kept already, and the model may be half-way to the next
+    finite_energies(step);
+    good_.take(scene_, step, cursors());
+  }
   const bool written = writer_.write(names_, step, [this](const std::string& path) {
     // The checkpoint counts on these records: they must be on the disk before it is.
     events_.sync();

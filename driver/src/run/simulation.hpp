@@ -36,6 +36,8 @@ class Simulation {
   int loop(std::int64_t first_step);
   // Until the end, or until a checkpoint and a stop are asked for; returns why, or "".
   std::string steps(std::int64_t& step, Signals& signals);
+  // From step to step + 1; returns why it was stopped half-way, or "".
+  std::string one_step(std::int64_t step, Signals& signals);
   void after_step(std::int64_t step);
   void write_outputs(std::int64_t step);
   // False: it could not be written, and the run may go on.
@@ -63,6 +65,7 @@ class Simulation {
   bool checkpoint_at_end_;
   Snapshot good_;  // the last state known to be finite
   double snapshot_seconds_ = 0;
+  StepReport report_;  // of the last step
   cleave_energies energies_{};
   std::int64_t energies_step_ = -1;  // the step they belong to
 };

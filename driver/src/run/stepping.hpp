@@ -4,11 +4,23 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 #include "run/schedule.hpp"
 #include "scene/scene.hpp"
 
 namespace cleave::driver {
+
+// What a static increment took, over the parts that it was cut into.
+struct StepReport {
+  bool finished = true;  // false: whoever watches has stopped it, the model is before it
+  std::int64_t iterations = 0;
+  std::int64_t rounds = 0, broken = 0;  // relaxation: how often bonds broke, and how many
+  double residual = 0;                  // relative, the largest of the parts
+};
+
+// Asked several times a second while an increment relaxes; false: stop.
+using StepWatch = std::function<bool(const StepReport& so_far)>;
 
 class Stepping {
  public:
@@ -16,17 +28,22 @@ class Stepping {
   explicit Stepping(const Deck& deck);
 
   bool is_static() const { return static_; }
+  bool relaxes() const { return static_ && relaxes_; }
   // Puts initial velocities, prescribed values and forces at time 0 and initialises the model.
   void start(Scene& scene, double dt) const;
   // From step to step + 1. Throws KernelError.
-  void step(Scene& scene, const Clock& clock, std::int64_t step) const;
+  StepReport step(Scene& scene, const Clock& clock, std::int64_t step,
+                  const StepWatch& watch = {}) const;
 
  private:
   static void refuse_dynamics(const Deck& deck);
   void explicit_step(Scene& scene, const Clock& clock, std::int64_t step) const;
-  void load_increment(Scene& scene, double from, double to) const;
+  StepReport load_increment(Scene& scene, double from, double to, const StepWatch& watch) const;
+  // The status of the kernels; adds to the report.
+  std::int32_t solve(Model& model, double time, StepReport& report) const;
+  std::int32_t relax(Model& model, double time, const StepWatch& watch, StepReport& report) const;
 
-  bool static_, adapt_;
+  bool static_, adapt_, relaxes_, one_bond_;
   double tolerance_;
   std::int64_t max_iterations_, cut_backs_;
 };

@@ -182,6 +182,57 @@ recursive subroutine clsolv(mod, tnew, tol, maxit, niter, resid, ierr)
   ierr = status
 end subroutine clsolv
 
+! The next equilibrium by relaxation, with bonds that break. tol, maxit: 0 for the defaults; ione: 1 to break
+! one bond at a time; nslice: iterations of this call, 0 until it is done. niter, nbroke, resid: what the
+! increment took so far; idone: 0 if the slice is used up and the same call goes on.
+recursive subroutine clrelx(mod, tnew, tol, maxit, ione, nslice, niter, nbroke, resid, idone, ierr)
+  use, intrinsic :: iso_c_binding, only: c_int32_t, c_int64_t, c_double
+  use cleave77_support, only: model_of
+  use cleave, only: cleave_model, cleave_model_relax, cleave_relaxation_options, &
+      cleave_relaxation_options_init, cleave_relaxation_report, CLEAVE_BREAKING_ONE, CLEAVE_OK
+  implicit none
+  integer, intent(in) :: mod
+  real(c_double), intent(in) :: tnew, tol
+  integer, intent(in) :: maxit, ione, nslice
+  integer, intent(inout) :: niter, nbroke
+  real(c_double), intent(inout) :: resid
+  integer, intent(inout) :: idone
+  integer, intent(out) :: ierr
+  type(cleave_model) :: model
+  integer(c_int32_t) :: status
+  type(cleave_relaxation_options) :: options
+  type(cleave_relaxation_report) :: report
+  call model_of('CLRELX', mod, model, status)
+  if (status == CLEAVE_OK) status = cleave_relaxation_options_init(options)
+  if (tol > 0) options%tolerance = tol
+  if (maxit > 0) options%max_iterations = maxit
+  if (ione == 1) options%breaking = CLEAVE_BREAKING_ONE
+  options%slice = int(nslice, c_int64_t)
+  if (status == CLEAVE_OK) status = cleave_model_relax(model, tnew, options, report)
+  if (status == CLEAVE_OK) then
+    niter = int(report%iterations, kind(niter))
+    nbroke = int(report%broken, kind(nbroke))
+    resid = report%residual
+    idone = merge(1, 0, report%finished)
+  end if
+  ierr = status
+end subroutine clrelx
+
+! Back to the equilibrium before the increment that is being relaxed.
+recursive subroutine clrlxc(mod, ierr)
+  use, intrinsic :: iso_c_binding, only: c_int32_t
+  use cleave77_support, only: model_of
+  use cleave, only: cleave_model, cleave_model_relax_cancel, CLEAVE_OK
+  implicit none
+  integer, intent(in) :: mod
+  integer, intent(out) :: ierr
+  type(cleave_model) :: model
+  integer(c_int32_t) :: status
+  call model_of('CLRLXC', mod, model, status)
+  if (status == CLEAVE_OK) status = cleave_model_relax_cancel(model)
+  ierr = status
+end subroutine clrlxc
+
 ! After all fields were put: rebuilds what follows from them, sets the clock.
 recursive subroutine clrest(mod, istep, time, ierr)
   use, intrinsic :: iso_c_binding, only: c_int32_t, c_double

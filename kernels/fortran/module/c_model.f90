@@ -2,7 +2,8 @@
 ! cleave.h: the model handle. What may be NULL in C is an address here.
 module cleave_c_model
   use, intrinsic :: iso_c_binding, only: c_int32_t, c_int64_t, c_double, c_char, c_ptr
-  use cleave_types, only: cleave_body_spec, cleave_static_options, cleave_event, &
+  use cleave_types, only: cleave_body_spec, cleave_static_options, cleave_relaxation_options, &
+      cleave_event, &
       cleave_energies, cleave_counts, cleave_field
   implicit none
   private
@@ -30,6 +31,9 @@ module cleave_c_model
   public :: cleave_model_update
   public :: cleave_static_options_init
   public :: cleave_model_solve_static
+  public :: cleave_relaxation_options_init
+  public :: cleave_model_relax
+  public :: cleave_model_relax_cancel
   public :: cleave_model_restore
   public :: cleave_model_clock
   public :: cleave_model_memory
@@ -253,6 +257,29 @@ module cleave_c_model
       type(c_ptr), value :: options, report
       integer(c_int32_t) :: status
     end function cleave_model_solve_static
+
+    function cleave_relaxation_options_init(options) bind(C) result(status)
+      import :: cleave_relaxation_options, c_int32_t
+      implicit none
+      type(cleave_relaxation_options), intent(out) :: options
+      integer(c_int32_t) :: status
+    end function cleave_relaxation_options_init
+
+    function cleave_model_relax(model, time_new, options, report) bind(C) result(status)
+      import :: c_ptr, c_double, c_int32_t
+      implicit none
+      type(c_ptr), value :: model
+      real(c_double), value :: time_new
+      type(c_ptr), value :: options, report
+      integer(c_int32_t) :: status
+    end function cleave_model_relax
+
+    function cleave_model_relax_cancel(model) bind(C) result(status)
+      import :: c_ptr, c_int32_t
+      implicit none
+      type(c_ptr), value :: model
+      integer(c_int32_t) :: status
+    end function cleave_model_relax_cancel
 
     function cleave_model_restore(model, step, time) bind(C) result(status)
       import :: c_ptr, c_int64_t, c_double, c_int32_t

@@ -12,7 +12,10 @@ module cleave_models
       c_initialise => cleave_model_initialise, c_advance => cleave_model_advance, &
       c_update => cleave_model_update, c_solve => cleave_model_solve_static, &
       c_options_init => cleave_static_options_init, cleave_static_options, &
-      c_report => cleave_static_report
+      c_report => cleave_static_report, &
+      c_relax_init => cleave_relaxation_options_init, c_relax => cleave_model_relax, &
+      c_cancel => cleave_model_relax_cancel, cleave_relaxation_options, &
+      c_relaxed => cleave_relaxation_report
   implicit none
   private
   public :: cleave_model, handle_of, ready
@@ -21,6 +24,8 @@ module cleave_models
       cleave_model_initialise, cleave_model_advance, cleave_model_update
   public :: cleave_static_options, cleave_static_report, cleave_static_options_init, &
       cleave_model_solve_static
+  public :: cleave_relaxation_options, cleave_relaxation_report, cleave_relaxation_options_init, &
+      cleave_model_relax, cleave_model_relax_cancel
 
   ! A copy of it names the same model; destroy it once.
   type :: cleave_model
@@ -33,6 +38,15 @@ module cleave_models
     integer(c_int64_t) :: unknowns = 0
     real(c_double) :: residual = 0
   end type cleave_static_report
+
+  type :: cleave_relaxation_report
+    integer(c_int64_t) :: iterations = 0
+    integer(c_int64_t) :: rounds = 0
+    integer(c_int64_t) :: broken = 0
+    integer(c_int64_t) :: unknowns = 0
+    logical :: finished = .false.
+    real(c_double) :: residual = 0
+  end type cleave_relaxation_report
 
   interface cleave_model_create
     module procedure model_create
@@ -67,6 +81,15 @@ module cleave_models
   interface cleave_model_solve_static
     module procedure model_solve_static
   end interface cleave_model_solve_static
+  interface cleave_relaxation_options_init
+    module procedure relaxation_options_init
+  end interface cleave_relaxation_options_init
+  interface cleave_model_relax
+    module procedure model_relax
+  end interface cleave_model_relax
+  interface cleave_model_relax_cancel
+    module procedure model_relax_cancel
+  end interface cleave_model_relax_cancel
 
 contains
 
@@ -192,4 +215,40 @@ contains
     report%unknowns = answer%unknowns
     report%residual = answer%residual
   end function model_solve_static
+
+  recursive function relaxation_options_init(options) result(status)
+    type(cleave_relaxation_options), intent(out) :: options
+    integer(c_int32_t) :: status
+    status = c_relax_init(options)
+  end function relaxation_options_init
+
+  recursive function model_relax(model, time_new, options, report) result(status)
+    type(cleave_model), intent(in) :: model
+    real(c_double), intent(in) :: time_new
+    type(cleave_relaxation_options), intent(in), target, optional :: options
+    type(cleave_relaxation_report), intent(inout), optional :: report
+    integer(c_int32_t) :: status
+    type(c_relaxed), target :: answer
+    type(c_ptr) :: chosen
+    status = ready('cleave_model_relax', model)
+    if (status /= CLEAVE_OK) return
+    chosen = c_null_ptr
+    if (present(options)) chosen = c_loc(options)
+    answer%size = size(transfer(answer, [0_c_int8_t]), kind=c_int64_t)
+    status = c_relax(model%handle, time_new, chosen, c_loc(answer))
+    if (status /= CLEAVE_OK .or. .not. present(report)) return
+    report%iterations = answer%iterations
+    report%rounds = answer%rounds
+    report%broken = answer%broken
+    report%unknowns = answer%unknowns
+    report%finished = answer%finished /= 0
+    report%residual = answer%residual
+  end function model_relax
+
+  recursive function model_relax_cancel(model) result(status)
+    type(cleave_model), intent(in) :: model
+    integer(c_int32_t) :: status
+    status = ready('cleave_model_relax_cancel', model)
+    if (status == CLEAVE_OK) status = c_cancel(model%handle)
+  end function model_relax_cancel
 end module cleave_models

@@ -128,6 +128,25 @@ module cleave_types
     real(c_double) :: residual = 0
   end type cleave_static_report
 
+  type, bind(C), public :: cleave_relaxation_options
+    integer(c_int64_t) :: size = 0
+    real(c_double) :: tolerance = 0
+    integer(c_int64_t) :: max_iterations = 0
+    integer(c_int64_t) :: slice = 0
+    integer(c_int32_t) :: breaking = 0
+    integer(c_int32_t) :: reserved = 0
+  end type cleave_relaxation_options
+
+  type, bind(C), public :: cleave_relaxation_report
+    integer(c_int64_t) :: size = 0
+    integer(c_int64_t) :: iterations = 0
+    integer(c_int64_t) :: rounds = 0
+    integer(c_int64_t) :: broken = 0
+    integer(c_int64_t) :: unknowns = 0
+    integer(c_int64_t) :: finished = 0
+    real(c_double) :: residual = 0
+  end type cleave_relaxation_report
+
   type, bind(C), public :: cleave_event
     integer(c_int64_t) :: size = 0
     integer(c_int64_t) :: step = 0

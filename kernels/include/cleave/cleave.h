@@ -472,6 +472,44 @@ CLEAVE_API int32_t cleave_model_solve_static(cleave_model* model, double time_ne
                                              const cleave_static_options* options,
                                              cleave_static_report* report);
 
+/* ---- statics by dynamic relaxation, for every formulation and bonds that break: instead of
+ * cleave_model_solve_static. No matrix and no tangent: the forces are evaluated many times. One load
+ * increment: the boundary and the forces take their new values, the body relaxes to equilibrium, bonds that
+ * fail there break, it relaxes again, until nothing fails.                          theory: relaxation */
+enum cleave_breaking {
+  CLEAVE_BREAKING_ALL = 1, /* every bond that fails in an equilibrium */
+  CLEAVE_BREAKING_ONE = 2  /* the one furthest beyond its limit (cbm) */
+};
+typedef struct cleave_relaxation_options {
+  int64_t size;
+  double tolerance;       /* norm of the residual over that of all forces; default 1e-6 */
+  int64_t max_iterations; /* of one relaxation; default 100000 */
+  int64_t slice;          /* iterations of one call; default 0: until it is done */
+  int32_t breaking;       /* enum cleave_breaking; default ALL */
+  int32_t reserved;
+} cleave_relaxation_options;
+typedef struct cleave_relaxation_report {
+  int64_t size;
+  int64_t iterations; /* evaluations of the forces in this increment, of all bodies */
+  int64_t rounds;     /* equilibria of this increment in which bonds broke */
+  int64_t broken;     /* bonds that broke in this increment */
+  int64_t unknowns;   /* of all bodies */
+  int64_t finished;   /* 1: equilibrium without failing bonds; 0: the slice is used up */
+  double residual;    /* relative, the largest of the bodies */
+} cleave_relaxation_report;
+CLEAVE_API int32_t cleave_relaxation_options_init(cleave_relaxation_options* options);
+/* From the present equilibrium to the next, at time_new (a label: loads are functions of it). With a slice
+ * and finished = 0 the model is on the way: the same call goes on (of the options only slice may change),
+ * cleave_model_relax_cancel goes back to the equilibrium before; anything else but questions is refused or
+ * spoils the increment. The result does not depend on slices.
+ * [in]  options: NULL for the defaults      [out] report: may be NULL; report->size must be set
+ * Errors: NO_CONVERGENCE, the state, with its bonds and events, is as before the increment: try a smaller
+ * one; UNSUPPORTED (a body has forces that no equilibrium can be found with). */
+CLEAVE_API int32_t cleave_model_relax(cleave_model* model, double time_new,
+                                      const cleave_relaxation_options* options,
+                                      cleave_relaxation_report* report);
+CLEAVE_API int32_t cleave_model_relax_cancel(cleave_model* model);
+
 /* Bonds broken by the steps since the last cleave_body_clear_events. */
 typedef struct cleave_event {
   int64_t size;
@@ -498,7 +536,7 @@ typedef struct cleave_energies {
   double plastic;           /* plastic work */
   double stabilisation;     /* stored by the hourglass stabilisation */
   double fracture;          /* released by breaking bonds */
-  double viscous;           /* dissipated by artificial viscosity */
+  double viscous;           /* dissipated by artificial viscosity; by the damping of relaxation */
   double external;          /* work of external forces */
   double reaction;          /* work of the forces that keep prescribed motion */
   double internal;          /* work done against internal forces (trapezoid) */

@@ -7,6 +7,7 @@
 #include "abi/checks.hpp"
 #include "core/instruction_set.hpp"
 #include "model/resident.hpp"
+#include "solver/relaxation.hpp"
 #include "solver/static_solver.hpp"
 
 using namespace cleave;
@@ -315,6 +316,56 @@ int32_t cleave_model_solve_static(cleave_model* model, double time_new,
   });
 }
 
+int32_t cleave_relaxation_options_init(cleave_relaxation_options* options) {
+  return guarded("cleave_relaxation_options_init", [&] {
+    const RelaxationOptions defaults;
+    required(options, "options") = {sizeof(cleave_relaxation_options),
+                                    defaults.tolerance,
+                                    defaults.max_iterations,
+                                    defaults.slice,
+                                    CLEAVE_BREAKING_ALL,
+                                    0};
+  });
+}
+
+int32_t cleave_model_relax(cleave_model* model, double time_new,
+                           const cleave_relaxation_options* options,
+                           cleave_relaxation_report* report) {
+  return guarded("cleave_model_relax", [&] {
+    if (checked(model).phase != Phase::relaxing)
+      model->require(Phase::stepping,
+                     "statics start after cleave_model_initialise, between two steps");
+    if (report != nullptr) fill_sized(report, cleave_relaxation_report{}, "report");
+    RelaxationOptions wanted;
+    if (options != nullptr) {
+      check_size(*options, "cleave_relaxation_options");
+      if (options->breaking != CLEAVE_BREAKING_ALL && options->breaking != CLEAVE_BREAKING_ONE) {
+        throw Error(CLEAVE_BAD_ARGUMENT,
+                    text("breaking is ", options->breaking,
+                         "; allowed: CLEAVE_BREAKING_ALL, CLEAVE_BREAKING_ONE"));
+      }
+      wanted = {options->tolerance, options->max_iterations, options->slice,
+                options->breaking == CLEAVE_BREAKING_ONE};
+    }
+    const RelaxationReport now = relax(*model, time_new, wanted);
+    if (report != nullptr) {
+      fill_sized(report,
+                 cleave_relaxation_report{0, now.iterations, now.rounds, now.broken, now.unknowns,
+                                          now.finished ? 1 : 0, now.residual},
+                 "report");
+    }
+  });
+}
+
+int32_t cleave_model_relax_cancel(cleave_model* model) {
+  return guarded("cleave_model_relax_cancel", [&] {
+    checked(model).require(Phase::relaxing,
+                           "nothing is being relaxed; only a call of cleave_model_relax that "
+                           "returned with finished = 0 can be cancelled");
+    cancel_relaxation(*model);
+  });
+}
+
 int32_t cleave_model_update(cleave_model* model) {
   return guarded("cleave_model_update", [&] {
     checked(model).require(Phase::advanced, "cleave_model_update comes after cleave_model_advance");
@@ -363,6 +414,7 @@ int32_t cleave_model_memory(cleave_model* model, int64_t* bytes) {
   return guarded("cleave_model_memory", [&] {
     int64_t sum = 0;
     for (const auto& b : checked(model).bodies) sum += b->fields.bytes() + b->formulation->bytes();
+    if (model->relaxation != nullptr) sum += model->relaxation->bytes();
     required(bytes, "bytes") = sum;
   });
 }

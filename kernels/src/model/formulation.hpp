@@ -57,6 +57,17 @@ class Formulation {
   // What the static solver would miss, as a sentence; empty: nothing.
   virtual std::string static_obstacle(const Body&) const { return {}; }
 
+  // For dynamic relaxation. A bound S of the tangent stiffness K of the body as it is connected now, but
+  // undeformed: sum over j of |K_ij| <= S_i, or at least no eigenvalue of S^-1 K above 1. (3,n) [N/m]; zero
+  // for a degree of freedom that nothing resists. Here: S = m (2/dt)^2 with the stable step dt, which is
+  // below 2/omega_max.
+  virtual void stiffness_bound(const Body& body, ThreadTeam& team, std::span<double> bound);
+  // What dynamic relaxation would miss, as a sentence; empty: nothing.
+  virtual std::string relaxation_obstacle(const Body&) const { return {}; }
+  // As break_bonds, for the one bond that is furthest beyond its limit; the first of equals. False: this
+  // formulation breaks bonds and cannot choose among them.
+  virtual bool break_most_critical(Body&, const Clock&, ThreadTeam&) { return false; }
+
   // The parts of a step, in this order.
   virtual void break_bonds(Body& body, const Clock& clock, ThreadTeam& team) = 0;
   // Displacement gradient, then stress.

@@ -9,10 +9,14 @@
 #include "core/thread_team.hpp"
 #include "model/body.hpp"
 
+namespace cleave {
+class Relaxation;
+}
+
 // The opaque type of the interface.
 struct cleave_model {
   // Where the model is in its life; calls out of order are refused by name.
-  enum class Phase { building, ready, stepping, advanced };
+  enum class Phase { building, ready, stepping, advanced, relaxing };
 
   Phase phase = Phase::building;
   cleave::ThreadTeam team;
@@ -20,7 +24,10 @@ struct cleave_model {
   bool by_rows = false;  // see Body
   cleave::Clock clock;
   std::vector<std::unique_ptr<cleave::Body>> bodies;
+  std::unique_ptr<cleave::Relaxation> relaxation;  // in phase relaxing
 
+  cleave_model();
+  ~cleave_model();
   void require(Phase wanted, const char* remedy) const;
   void require_set_up() const;
   cleave::Body& body(std::int64_t index) const;
@@ -41,6 +48,8 @@ void restore(cleave_model& model, std::int64_t step, double time);
 // stable_step.cpp: for the present deformation
 double stable_step(cleave_model& model);
 bool is_stable(cleave_model& model, double dt);
+// Factor <= 1 by which the deformation of the fields shortens the stable step of a body.
+double shortening(Body& body, ThreadTeam& team);
 
 // questions
 void reaction(const Body& body, std::span<const std::int64_t> particles, double force[3]);

@@ -71,9 +71,7 @@ double deformation_factor(Body& body, ThreadTeam& team) {
 
 double stable_step(Body& body, ThreadTeam& team) {
   fetch(body);
-  const double factor =
-      body.dimension() == 2 ? deformation_factor<2>(body, team) : deformation_factor<3>(body, team);
-  return factor * body.formulation->stable_step(body);
+  return shortening(body, team) * body.formulation->stable_step(body);
 }
 
 bool stiffens(const Body& body) {
@@ -83,6 +81,11 @@ bool stiffens(const Body& body) {
 }
 
 }  // namespace
+
+double shortening(Body& body, ThreadTeam& team) {
+  return body.dimension() == 2 ? deformation_factor<2>(body, team)
+                               : deformation_factor<3>(body, team);
+}
 
 double stable_step(cleave_model& model) {
   double step = kUnbounded;

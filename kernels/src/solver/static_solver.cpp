@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <string_view>
 #include <vector>
 
 #include "model/resident.hpp"
+#include "solver/increment.hpp"
 #include "solver/stiffness.hpp"
 
 namespace cleave {
@@ -16,44 +16,6 @@ namespace cleave {
 namespace {
 
 using Vector = Eigen::VectorXd;
-
-// What a trial may change, kept to come back to.
-class Committed {
- public:
-  explicit Committed(Body& body) {
-    for (auto& field : body.fields.all()) {
-      if (field.spec.lifetime == CLEAVE_LIFETIME_STATE && field.spec.type == CLEAVE_REAL)
-        kept_.push_back({&field, field.real});
-    }
-    history_ = body.history;
-    for (std::size_t k = 0; k < kMaxHistory; ++k) {
-      for (auto& [field, values] : kept_) {
-        if (history_.base[k] != nullptr && history_.base[k] == field->real.data())
-          history_.base[k] = values.data();
-      }
-    }
-  }
-  Committed(const Committed&) = delete;
-  Committed& operator=(const Committed&) = delete;
-  void restore() const {
-    for (const auto& [field, values] : kept_) field->real = values;
-  }
-  const HistoryArrays& history() const { return history_; }
-  const std::vector<double>& values(const char* name) const {
-    for (const auto& [field, values] : kept_) {
-      if (std::string_view(name) == field->spec.name) return values;
-    }
-    throw Error(CLEAVE_INTERNAL, text("no state field ", name));
-  }
-
- private:
-  struct Kept {
-    Field* field;
-    std::vector<double> values;
-  };
-  std::vector<Kept> kept_;
-  HistoryArrays history_;
-};
 
 Error no_convergence(const Body& body, const std::string& why) {
   return Error(CLEAVE_NO_CONVERGENCE,
@@ -81,7 +43,7 @@ class Newton {
     double norm = r.norm();
     bool first = true;
     for (iterations = 0;; ++iterations) {
-      const double scale = force_scale();
+      const double scale = force_scale(body_, committed_);
       relative = scale > 0 && norm > kRounding * unbalanced_ ? norm / scale : 0.0;
       if (!first && relative <= options_.tolerance) break;
       if (iterations == options_.max_iterations) {
@@ -93,7 +55,7 @@ class Newton {
       r = residual();
       first = false;
     }
-    book_works();
+    book_works(body_, committed_, [this](std::size_t c) { return equations_.of[c] >= 0; });
   }
 
   const Committed& committed() const { return committed_; }
@@ -130,18 +92,6 @@ class Newton {
       if (equations_.of[c] >= 0) r[equations_.of[c]] = body_.point.internal[c] + external_[c];
     }
     return r;
-  }
-
-  // The forces before the increment count too: it may take them all away.
-  double force_scale() const {
-    const auto& before = committed_.values("internal_force");
-    double internal = 0, external = 0, old = 0;
-    for (std::size_t c = 0; c < external_.size(); ++c) {
-      internal += body_.point.internal[c] * body_.point.internal[c];
-      external += external_[c] * external_[c];
-      old += before[c] * before[c];
-    }
-    return std::sqrt(std::fmax(old, std::fmax(internal, external)));
   }
 
   // K change = r - K_fixed jump.
@@ -208,27 +158,6 @@ class Newton {
     throw no_convergence(body_, why.empty() ? "the line search found no smaller residual" : why);
   }
 
-  // Works of the increment, by the trapezoid between the two equilibria.
-  void book_works() {
-    const auto& u_old = committed_.values("displacement");
-    const auto& f_old = committed_.values("internal_force");
-    const PointArrays& pt = body_.point;
-    double internal = 0, external = 0, reaction = 0;
-    for (std::size_t c = 0; c < u_old.size(); ++c) {
-      const double change = pt.u[c] - u_old[c];
-      internal += 0.5 * (f_old[c] + pt.internal[c]) * change;
-      if (equations_.of[c] >= 0) {
-        external += 0.5 * (external_[c] - f_old[c]) * change;  // in equilibrium f_ext = - f_int
-      } else {  // held degrees of freedom feel what balances the other forces
-        external += external_[c] * change;
-        reaction -= (0.5 * (f_old[c] + pt.internal[c]) + external_[c]) * change;
-      }
-    }
-    pt.ledger[ledger::kInternal] -= internal;
-    pt.ledger[ledger::kExternal] += external;
-    pt.ledger[ledger::kReaction] += reaction;
-  }
-
   Body& body_;
   Clock clock_;
   ThreadTeam& team_;
@@ -246,15 +175,6 @@ class Newton {
   Eigen::SimplicialLDLT<SparseMatrix> symmetric_;
   bool analysed_ = false;
 };
-
-// The first increment fixes what the balance is measured from.
-void start_ledger(Body& body) {
-  const PointArrays& pt = body.point;
-  if (pt.ledger[ledger::kStarted] > 0) return;
-  const cleave_energies e = energies(body);
-  pt.ledger[ledger::kStartTotal] = e.elastic + e.plastic + e.stabilisation;
-  pt.ledger[ledger::kStarted] = 1;
-}
 
 }  // namespace
 
@@ -290,13 +210,7 @@ StaticReport solve_static(cleave_model& model, double time_new, const StaticOpti
       report.unknowns += newton.unknowns();
     }
   } catch (...) {
-    for (std::size_t k = 0; k < done.size(); ++k) {
-      done[k]->committed().restore();
-      Body& body = *model.bodies[k];
-      for (std::int64_t c = 0; c < kVector * body.particles; ++c)
-        body.point.x[c] = body.point.X[c] + body.point.u[c];
-      body.formulation->rebuild(body, model.team);
-    }
+    for (const auto& newton : done) newton->committed().restore_all(model.team);
     throw;
   }
   model.clock = clock;

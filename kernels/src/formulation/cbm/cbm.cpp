@@ -6,6 +6,7 @@
 
 #include "core/gradient_operator.hpp"
 #include "formulation/common/unused_groups.hpp"
+#include "model/stiffness_bound.hpp"
 
 namespace cleave::cbm {
 
@@ -154,13 +155,20 @@ double ContinuumBondMethod::stable_step(const Body& body) const {
 }
 
 std::string ContinuumBondMethod::static_obstacle(const Body&) const {
-  if (stabilisation_.active()) return "it has no tangent of the stabilisation; leave it off";
-  if (fracture_.active()) return "bonds may not break in it; leave &fracture out";
+  if (stabilisation_.active())
+    return "it has no tangent of the stabilisation; leave it off, or use relaxation";
+  if (fracture_.active())
+    return "bonds may not break in it; leave &fracture out, or use relaxation";
   return "";
 }
 
 void ContinuumBondMethod::break_bonds(Body& body, const Clock& clock, ThreadTeam& team) {
   fracture_.step(body, network_, stabilisation_, clock, team);
+}
+
+bool ContinuumBondMethod::break_most_critical(Body& body, const Clock& clock, ThreadTeam& team) {
+  fracture_.step_one(body, network_, stabilisation_, clock, team);
+  return true;
 }
 
 void ContinuumBondMethod::precrack(Body& body, std::span<const std::int64_t> pairs) {
@@ -169,6 +177,13 @@ void ContinuumBondMethod::precrack(Body& body, std::span<const std::int64_t> pai
     blocks_->changed({});
   }
   fracture_.precrack(body, network_, pairs);
+}
+
+// The stable step knows the stabilisation, the rows do not.
+void ContinuumBondMethod::stiffness_bound(const Body& body, ThreadTeam& team,
+                                          std::span<double> bound) {
+  if (stabilisation_.active()) return Formulation::stiffness_bound(body, team, bound);
+  add_row_sums(body, *gradient_operator(team), bound);
 }
 
 void ContinuumBondMethod::deform(Body& body, const Clock& clock, ThreadTeam& team) {

@@ -24,8 +24,10 @@ class ContinuumBondMethod final : public Formulation {
   const GradientOperator* gradient_operator(ThreadTeam& team) override;
   ResidentStep* resident() override { return blocks_.get(); }
   std::string static_obstacle(const Body& body) const override;
+  void stiffness_bound(const Body& body, ThreadTeam& team, std::span<double> bound) override;
 
   void break_bonds(Body& body, const Clock& clock, ThreadTeam& team) override;
+  bool break_most_critical(Body& body, const Clock& clock, ThreadTeam& team) override;
   void deform(Body& body, const Clock& clock, ThreadTeam& team) override;
   void forces(Body& body, ThreadTeam& team) override;
   void precrack(Body& body, std::span<const std::int64_t> pairs) override;

@@ -354,6 +354,23 @@ void Fracture::step(Body& body, Network& network, const Stabilisation& stabilisa
   step(body, network, stabilisation, clock, broken_, state_of_fields(body));
 }
 
+void Fracture::step_one(Body& body, Network& network, const Stabilisation& stabilisation,
+                        const Clock& clock, ThreadTeam& team) {
+  if (!active_) return;
+  find_broken(body, network, team);
+  if (broken_.empty()) return;
+  const ParticleState state = state_of_fields(body);
+  const auto excess = [&](std::int32_t bond) {
+    const auto [i, p] = network.ends(bond);
+    return elongation(network, state, i, p) / network.critical[bond];
+  };
+  const std::int32_t first =
+      *std::max_element(broken_.begin(), broken_.end(),
+                        [&](std::int32_t a, std::int32_t b) { return excess(a) < excess(b); });
+  broken_.assign(1, first);
+  step(body, network, stabilisation, clock, broken_, state);
+}
+
 void Fracture::precrack(Body& body, Network& network, std::span<const std::int64_t> pairs) {
   broken_.clear();
   for (std::size_t k = 0; k + 1 < pairs.size(); k += 2) {

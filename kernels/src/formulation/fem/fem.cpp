@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "formulation/common/unused_groups.hpp"
 #include "formulation/fem/elements.hpp"
+#include "model/stiffness_bound.hpp"
 
 namespace cleave::fem {
 
@@ -177,6 +178,10 @@ void FiniteElements::rebuild(Body& body, ThreadTeam& team) {
 }
 
 double FiniteElements::stable_step(const Body&) const { return stable_step_; }
+
+void FiniteElements::stiffness_bound(const Body& body, ThreadTeam&, std::span<double> bound) {
+  add_row_sums(body, operator_, bound);
+}
 
 void FiniteElements::deform(Body& body, const Clock& clock, ThreadTeam& team) {
   points_.deform(body, operator_, clock, team);

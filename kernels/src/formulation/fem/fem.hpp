@@ -19,8 +19,10 @@ class FiniteElements final : public Formulation {
   void rebuild(Body& body, ThreadTeam& team) override;
   double stable_step(const Body& body) const override;
   const GradientOperator* gradient_operator(ThreadTeam&) override { return &operator_; }
+  void stiffness_bound(const Body& body, ThreadTeam& team, std::span<double> bound) override;
 
   void break_bonds(Body&, const Clock&, ThreadTeam&) override {}
+  bool break_most_critical(Body&, const Clock&, ThreadTeam&) override { return true; }
   void deform(Body& body, const Clock& clock, ThreadTeam& team) override;
   void forces(Body& body, ThreadTeam& team) override;
   void precrack(Body& body, std::span<const std::int64_t> pairs) override;

@@ -6,6 +6,7 @@
 #include "formulation/common/unused_groups.hpp"
 #include "formulation/meshless/stable_step.hpp"
 #include "formulation/tlsph/kernel.hpp"
+#include "model/stiffness_bound.hpp"
 
 namespace cleave::meshless {
 
@@ -76,8 +77,22 @@ void KernelMethod::rebuild(Body& body, ThreadTeam& team) {
 }
 
 std::string KernelMethod::static_obstacle(const Body&) const {
-  return hourglass_.active() ? "it has no tangent of the hourglass penalty; leave &hourglass out"
-                             : "";
+  return hourglass_.active()
+             ? "it has no tangent of the hourglass penalty; leave &hourglass out, or use "
+               "relaxation"
+             : "";
+}
+
+std::string KernelMethod::relaxation_obstacle(const Body&) const {
+  return hourglass_.has_energy() ? ""
+                                 : "the projected hourglass penalty stores no energy, only works "
+                                   "along a motion; use form 'conservative' in &hourglass";
+}
+
+// The stable step knows the penalty, the rows do not.
+void KernelMethod::stiffness_bound(const Body& body, ThreadTeam& team, std::span<double> bound) {
+  if (hourglass_.active()) return Formulation::stiffness_bound(body, team, bound);
+  add_row_sums(body, operator_, bound);
 }
 
 void KernelMethod::deform(Body& body, const Clock& clock, ThreadTeam& team) {

@@ -22,8 +22,11 @@ class KernelMethod : public Formulation {
   double stable_step(const Body&) const override { return stable_step_; }
   const GradientOperator* gradient_operator(ThreadTeam&) override { return &operator_; }
   std::string static_obstacle(const Body& body) const override;
+  void stiffness_bound(const Body& body, ThreadTeam& team, std::span<double> bound) override;
+  std::string relaxation_obstacle(const Body& body) const override;
 
   void break_bonds(Body&, const Clock&, ThreadTeam&) override {}
+  bool break_most_critical(Body&, const Clock&, ThreadTeam&) override { return true; }
   void deform(Body& body, const Clock& clock, ThreadTeam& team) override;
   void forces(Body& body, ThreadTeam& team) override;
   void precrack(Body& body, std::span<const std::int64_t> pairs) override;

@@ -28,6 +28,8 @@ class Hourglass {
  public:
   void setup(Body& body, const KernelGradient& gradient, const Kernel& kernel);
   bool active() const { return form_ != HourglassForm::none; }
+  // The projected force is not the gradient of one; its work is booked along the motion.
+  bool has_energy() const { return form_ != HourglassForm::projected; }
 
   // Force on particle i [N].
   template <int D>
