@@ -49,6 +49,7 @@ class Formulation {
   // The gradient operator of a formulation with a stress at points, else nullptr. Valid until bonds
   // break or the body is rebuilt.
   virtual const GradientOperator* gradient_operator(ThreadTeam&) { return nullptr; }
+  virtual bool has_gradient_operator() const { return false; }
 
   // The explicit step of a formulation that keeps the state in an order of its own; nullptr: the step goes
   // by the functions below, on the fields.

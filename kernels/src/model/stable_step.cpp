@@ -50,7 +50,7 @@ double stiffening(const Law& law, double volume_ratio, const History& history) {
 
 template <int D>
 double deformation_factor(Body& body, ThreadTeam& team) {
-  if (body.formulation->gradient_operator() == nullptr) return 1.0;  // no stress at points
+  if (!body.formulation->has_gradient_operator()) return 1.0;  // no stress at points
   with_law(body.material, [&](const auto& law) {
     for_blocks(team, body.points, [&](std::int64_t block, std::int64_t first, std::int64_t last) {
       double least = 1;

@@ -185,7 +185,7 @@ StaticReport solve_static(cleave_model& model, double time_new, const StaticOpti
   }
   for (auto& body : model.bodies) {
     take_fields(*body);
-    if (body->formulation->gradient_operator(model.team) == nullptr) {
+    if (!body->formulation->has_gradient_operator()) {
       throw Error(CLEAVE_UNSUPPORTED,
                   text(body->label(), ": formulation ", body->formulation->name(),
                        " has no gradient operator to solve with"));

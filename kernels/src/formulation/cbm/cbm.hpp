@@ -22,6 +22,7 @@ class ContinuumBondMethod final : public Formulation {
   void rebuild(Body& body, ThreadTeam& team) override;
   double stable_step(const Body& body) const override;
   const GradientOperator* gradient_operator(ThreadTeam& team) override;
+  bool has_gradient_operator() const override { return true; }
   ResidentStep* resident() override { return blocks_.get(); }
   std::string static_obstacle(const Body& body) const override;
   void stiffness_bound(const Body& body, ThreadTeam& team, std::span<double> bound) override;

@@ -19,6 +19,7 @@ class FiniteElements final : public Formulation {
   void rebuild(Body& body, ThreadTeam& team) override;
   double stable_step(const Body& body) const override;
   const GradientOperator* gradient_operator(ThreadTeam&) override { return &operator_; }
+  bool has_gradient_operator() const override { return true; }
   void stiffness_bound(const Body& body, ThreadTeam& team, std::span<double> bound) override;
 
   void break_bonds(Body&, const Clock&, ThreadTeam&) override {}

@@ -21,6 +21,7 @@ class KernelMethod : public Formulation {
   void rebuild(Body& body, ThreadTeam& team) override;
   double stable_step(const Body&) const override { return stable_step_; }
   const GradientOperator* gradient_operator(ThreadTeam&) override { return &operator_; }
+  bool has_gradient_operator() const override { return true; }
   std::string static_obstacle(const Body& body) const override;
   void stiffness_bound(const Body& body, ThreadTeam& team, std::span<double> bound) override;
   std::string relaxation_obstacle(const Body& body) const override;
