@@ -41,9 +41,9 @@ bool is_stress(std::string_view name) {
   return name.find("stress") != std::string_view::npos || name == "pressure";
 }
 bool is_deformation(std::string_view name) {
+  if (name == "strain_energy_density") return false;
   return name == "displacement_gradient" || name == "volume_ratio" ||
-         name == "deformation_gradient" || name.find("strain_") != std::string_view::npos ||
-         name.find("_strain") != std::string_view::npos;
+         name == "deformation_gradient" || name.find("strain") != std::string_view::npos;
 }
 
 }  // namespace
