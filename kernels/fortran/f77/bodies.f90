@@ -128,12 +128,12 @@ end subroutine clbexe
 
 ! Volumes of the particles instead of shares of simplices.
 recursive subroutine clbvol(mod, ibody, n, volume, ierr)
-  use, intrinsic :: iso_c_binding, only: c_int32_t
+  use, intrinsic :: iso_c_binding, only: c_int32_t, c_double
   use cleave77_support, only: model_of, at_least
   use cleave, only: cleave_model, cleave_body_volumes, CLEAVE_OK
   implicit none
   integer, intent(in) :: mod, ibody, n
-  double precision, intent(in) :: volume(*)
+  real(c_double), intent(in) :: volume(*)
   integer, intent(out) :: ierr
   type(cleave_model) :: model
   integer(c_int32_t) :: status

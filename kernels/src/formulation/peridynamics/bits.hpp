@@ -38,20 +38,9 @@ constexpr LaneTable make_lane_table() {
   return table;
 }
 alignas(64) inline constexpr LaneTable kLaneTable = make_lane_table();
-CLEAVE_INLINE Lanes lanes_of(unsigned byte) {
-  Lanes r;
-  std::memcpy(&r, kLaneTable[byte].data(), sizeof r);
-  return r;
-}
 // The lower bits of a byte: those of k < count.
 CLEAVE_INLINE unsigned lower_bits(std::int64_t count) {
   return count >= kWide ? 0xffu : (1u << count) - 1u;
-}
-// Lanes added in one order for every instruction set.
-CLEAVE_INLINE double sum_of(const Lanes& a) {
-  double l[kWide];
-  std::memcpy(l, &a, sizeof l);
-  return ((l[0] + l[1]) + (l[2] + l[3])) + ((l[4] + l[5]) + (l[6] + l[7]));
 }
 // |a| with the sign of b; a >= 0.
 CLEAVE_INLINE Lanes with_sign_of(const Lanes& a, const Lanes& b) {
@@ -64,11 +53,24 @@ CLEAVE_INLINE Lanes with_sign_of(const Lanes& a, const Lanes& b) {
   }
   return c;
 }
+// Register by register: GCC copies a pack of several through memory in pieces that stall the next load.
 CLEAVE_INLINE Lanes load_lanes8(const double* from) {
-  Lanes r;
-  std::memcpy(&r, from, sizeof r);
-  return r;
+  Lanes a;
+  for (int k = 0; k < Lanes::kRegisters; ++k)
+    std::memcpy(&a.r[k], from + kWide / Lanes::kRegisters * k, sizeof a.r[k]);
+  return a;
 }
-CLEAVE_INLINE void store_lanes8(const Lanes& a, double* to) { std::memcpy(to, &a, sizeof a); }
+CLEAVE_INLINE void store_lanes8(const Lanes& a, double* to) {
+  for (int k = 0; k < Lanes::kRegisters; ++k)
+    std::memcpy(to + kWide / Lanes::kRegisters * k, &a.r[k], sizeof a.r[k]);
+}
+
+CLEAVE_INLINE Lanes lanes_of(unsigned byte) { return load_lanes8(kLaneTable[byte].data()); }
+// Lanes added in one order for every instruction set.
+CLEAVE_INLINE double sum_of(const Lanes& a) {
+  double l[kWide];
+  store_lanes8(a, l);
+  return ((l[0] + l[1]) + (l[2] + l[3])) + ((l[4] + l[5]) + (l[6] + l[7]));
+}
 
 }  // namespace cleave::peridynamics
