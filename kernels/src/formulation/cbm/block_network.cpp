@@ -195,7 +195,7 @@ void BlockNetwork::make_row(const Network& network, const Block& block, std::int
   }
 }
 
-void BlockNetwork::rebuild(const Network& network, Block& block, Workspace& work) const {
+void BlockNetwork::form_rows(const Network& network, const Block& block, Workspace& work) const {
   clear(work.twins);
   clear(work.halves);
   for (std::int32_t l = 0; l < block.own; ++l) {
@@ -205,8 +205,12 @@ void BlockNetwork::rebuild(const Network& network, Block& block, Workspace& work
     for (BlockBonds* bonds : {&work.twins, &work.halves})
       bonds->count.push_back(static_cast<std::uint16_t>(bonds->size() - bonds->begin.back()));
   }
-  // Copied, not swapped: a block keeps the memory that was reserved for it.
   for (BlockBonds* bonds : {&work.twins, &work.halves}) pad(*bonds);
+}
+
+// Copied, not swapped: a block keeps the memory that was reserved for it.
+void BlockNetwork::rebuild(const Network& network, Block& block, Workspace& work) const {
+  form_rows(network, block, work);
   block.twins = work.twins;
   block.halves = work.halves;
 }
@@ -296,16 +300,19 @@ bool BlockNetwork::build(const Body& body, const Network& network, bool with_wei
   if (largest > std::numeric_limits<std::uint16_t>::max()) return false;
   collect_incoming();
   const auto row = at(kVector * static_cast<std::int64_t>(network.longest_row()));
-  team.for_blocks(static_cast<std::int64_t>(blocks.size()), [&](std::int64_t b) {
+  std::vector<Workspace> workspaces(at(team.size()));
+  team.for_blocks(static_cast<std::int64_t>(blocks.size()), [&](std::int64_t b, int worker) {
     Block& block = blocks[at(b)];
-    Workspace work;
+    Workspace& work = workspaces[at(worker)];
     work.zeta.resize(row);
     work.back.resize(row);
-    rebuild(network, block, work);
-    // A twin that breaks open becomes two halves. What is reserved and not used costs no memory.
-    const std::int64_t halves = block.halves.size() + (with_limits ? 2 * block.twins.size() : 0);
-    fit(block.twins, body.dimension(), block.twins.size(), with_weights, with_limits);
+    form_rows(network, block, work);
+    // A twin that breaks open becomes two halves. What is reserved and was never used costs no memory.
+    const std::int64_t halves = work.halves.size() + (with_limits ? 2 * work.twins.size() : 0);
+    fit(block.twins, body.dimension(), work.twins.size(), with_weights, with_limits);
     fit(block.halves, body.dimension(), halves, with_weights, with_limits);
+    block.twins = work.twins;
+    block.halves = work.halves;
   });
   return true;
 }

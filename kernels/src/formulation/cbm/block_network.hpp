@@ -84,6 +84,7 @@ class BlockNetwork {
  private:
   void order_particles(const Body& body, const Network& network);
   void find_foreign(const Network& network, Block& block) const;
+  void form_rows(const Network& network, const Block& block, Workspace& work) const;
   void make_row(const Network& network, const Block& block, std::int32_t local,
                 Workspace& work) const;
   void put_row(int dimension, std::int32_t local, const BlockBonds& row, BlockBonds& bonds) const;
