@@ -478,7 +478,7 @@ CLEAVE_API int32_t cleave_model_solve_static(cleave_model* model, double time_ne
  * fail there break, it relaxes again, until nothing fails.                          theory: relaxation */
 enum cleave_breaking {
   CLEAVE_BREAKING_ALL = 1, /* every bond that fails in an equilibrium */
-  CLEAVE_BREAKING_ONE = 2  /* the one furthest beyond its limit (cbm) */
+  CLEAVE_BREAKING_ONE = 2  /* the one furthest beyond its limit */
 };
 typedef struct cleave_relaxation_options {
   int64_t size;

@@ -86,7 +86,8 @@ void Peridynamic::setup(Body& body, ThreadTeam&) {
   interactions_[0] = static_cast<double>(hood_.half_bonds());
   prepare(body);
   for (std::int64_t i = 0; i < hood_.points; ++i) reconnect(i);
-  stable_step_ = kSafety * 2 / std::sqrt(largest_rate(body));
+  rate_ = largest_rate(body);
+  stable_step_ = kSafety * 2 / std::sqrt(rate_);
   flag_.assign(n, 0);
   place_.assign(n, -1);
   const std::size_t reserve = std::min(static_cast<std::size_t>(hood_.bonds()), kReserve);
@@ -141,7 +142,40 @@ void Peridynamic::forces(Body& body, ThreadTeam& team) {
   act(body, team);
 }
 
+void Peridynamic::stiffness_bound(const Body& body, ThreadTeam&, std::span<double> bound) {
+  for (std::int64_t i = 0; i < hood_.points; ++i) {
+    const bool carried = damage_.intact_count(i) > 0;
+    for (int k = 0; k < dimension_; ++k)
+      bound[static_cast<std::size_t>(kVector * i + k)] = carried ? rate_ * body.point.mass[i] : 0.0;
+  }
+}
+
 void Peridynamic::break_bonds(Body& body, const Clock& clock, ThreadTeam& team) {
+  find_broken(body, team);
+  if (!broken_.empty()) break_found(body, clock, team);
+}
+
+bool Peridynamic::break_most_critical(Body& body, const Clock& clock, ThreadTeam& team) {
+  find_broken(body, team);
+  if (broken_.empty()) return true;
+  double largest = -1;
+  std::int32_t chosen = broken_.front();
+  for (const std::int32_t bond : broken_) {
+    hood_.for_bonds(bond, bond + 1,
+                    [&](std::int32_t, std::int64_t i, std::int32_t p, std::int32_t) {
+                      const double s = stretch(hood_, body.point.x, i, p);
+                      if (s > largest) chosen = bond;
+                      largest = std::fmax(largest, s);
+                    });
+  }
+  broken_.assign(1, chosen);
+  break_found(body, clock, team);
+  return true;
+}
+
+// Sets broken_: the bonds that are beyond their limit.
+void Peridynamic::find_broken(Body& body, ThreadTeam& team) {
+  broken_.clear();
   if (!damage_.active()) return;
   take_positions(body, team);
   const PairArrays arrays = pair_arrays(body);
@@ -151,7 +185,6 @@ void Peridynamic::break_bonds(Body& body, const Clock& clock, ThreadTeam& team) 
     kernels().stretched(arrays, first, last, limit, flag_.data() + first);
   });
   damage_.find(body.point.x, flag_, broken_);
-  if (!broken_.empty()) break_found(body, clock, team);
 }
 
 // Breaks the bonds of broken_.

@@ -29,7 +29,11 @@ class Peridynamic : public Formulation {
   double stable_step(const Body&) const override { return stable_step_; }
   std::string static_obstacle(const Body&) const override;
 
+  // Uniform: the bound of the stable step for every point that has a bond left.
+  void stiffness_bound(const Body& body, ThreadTeam& team, std::span<double> bound) override;
+
   void break_bonds(Body& body, const Clock& clock, ThreadTeam& team) override;
+  bool break_most_critical(Body& body, const Clock& clock, ThreadTeam& team) override;
   void deform(Body& body, const Clock& clock, ThreadTeam& team) override;
   void forces(Body& body, ThreadTeam& team) override;
   void precrack(Body& body, std::span<const std::int64_t> pairs) override;
@@ -96,6 +100,7 @@ class Peridynamic : public Formulation {
  private:
   void refuse_groups(const Body& body) const;
   void take_positions(const Body& body, ThreadTeam& team);
+  void find_broken(Body& body, ThreadTeam& team);
   void break_found(Body& body, const Clock& clock, ThreadTeam& team);
   void release(Body& body, const Clock& clock, ThreadTeam& team, double sign);
   void record_events(Body& body, const Clock& clock);
@@ -103,6 +108,7 @@ class Peridynamic : public Formulation {
   Mat<3> stress_with_plane(const Body& body, std::int64_t i, int worker) const;
 
   double stable_step_ = 0;
+  double rate_ = 0;                    // largest_rate
   std::vector<char> flag_;             // (n) a bond may be beyond its limit
   std::vector<std::int32_t> broken_;   // bonds of the step being done
   std::vector<std::int32_t> touched_;  // their ends, each once
