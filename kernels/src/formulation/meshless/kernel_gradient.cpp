@@ -4,13 +4,12 @@
 #include <cmath>
 
 #include "core/blocks.hpp"
-#include "formulation/common/simplices.hpp"
+#include "formulation/common/body_simplices.hpp"
 
 namespace cleave::meshless {
 
 namespace {
 
-constexpr std::int64_t kStride = 4;  // of simplex_particles
 // Reciprocal condition number of K_i (1: neighbours all around) below which a particle has no gradient.
 constexpr double kSingular = 1e-6;
 
@@ -19,24 +18,16 @@ double frobenius(const Mat<D>& m) {
   return std::sqrt(contract(m, m));
 }
 
-template <int D>
-void add_shares(const double* X, const std::int32_t* corners, std::int64_t simplices,
-                double* volume) {
-  for (std::int64_t s = 0; s < simplices; ++s) {
-    const std::int32_t* c = corners + kStride * s;
-    const double share = simplex_geometry<D>(X, c).volume / (D + 1);
-    for (int a = 0; a <= D; ++a) volume[c[a]] += share;
-  }
-}
-
 }  // namespace
 
 void KernelGradient::build(Body& body, const Kernel& kernel) {
   kernel_ = kernel;
   X = body.point.X;
   volume = body.point.volume;
-  take_simplices(body);
-  sum_volumes(body);
+  require_simplices(body);
+  simplices = take_simplices(body);
+  corners_ = body.fields.integer("simplex_particles");
+  share_volumes(body, corners_, simplices);
   check_volumes(body);
   rows = neighbours_within(X, body.particles, kernel.support, kernel.rule, body.label());
   check_distances(body);
@@ -51,37 +42,13 @@ void KernelGradient::build(Body& body, const Kernel& kernel) {
   }
 }
 
-void KernelGradient::take_simplices(Body& body) {
-  const int corner_count = body.dimension() + 1;
+void KernelGradient::require_simplices(const Body& body) {
   if (body.given_simplices.empty()) {
     throw Error(CLEAVE_UNSUPPORTED,
                 text(body.label(), " has no simplices: ", body.formulation->name(),
                      " takes the volumes of its particles from them; give the body a mesh of "
                      "triangles or tetrahedra, or a lattice"));
   }
-  if (body.simplex_nodes != corner_count) {
-    throw Error(CLEAVE_UNSUPPORTED, text(body.label(), ": ", body.formulation->name(),
-                                         " needs simplices of ", corner_count, " particles, not ",
-                                         body.simplex_nodes, "; use a mesh of first order"));
-  }
-  simplices = static_cast<std::int64_t>(body.given_simplices.size()) / corner_count;
-  body.fields.allocate(CLEAVE_RELATION_SIMPLEX, simplices);
-  std::int32_t* corners = body.fields.integer("simplex_particles");
-  for (std::int64_t s = 0; s < simplices; ++s) {
-    const std::int64_t* given = body.given_simplices.data() + corner_count * s;
-    for (int a = 0; a < corner_count; ++a)
-      body.check_particle(given[a], CLEAVE_BAD_SIMPLEX, text("simplex ", body.number(s)));
-    for (int a = 0; a < kStride; ++a) {
-      corners[kStride * s + a] = a < corner_count ? static_cast<std::int32_t>(given[a]) : -1;
-    }
-  }
-  corners_ = corners;
-}
-
-void KernelGradient::sum_volumes(const Body& body) {
-  std::fill(volume, volume + body.particles, 0.0);
-  body.dimension() == 2 ? add_shares<2>(X, corners_, simplices, volume)
-                        : add_shares<3>(X, corners_, simplices, volume);
 }
 
 void KernelGradient::check_volumes(const Body& body) const {
@@ -155,7 +122,7 @@ bool KernelGradient::weigh(std::int64_t i) {
 }
 
 void KernelGradient::rebuild(const Body& body, ThreadTeam& team) {
-  sum_volumes(body);
+  share_volumes(body, corners_, simplices);
   const bool plane = body.dimension() == 2;
   for_blocks(team, body.particles, [&](std::int64_t block, std::int64_t first, std::int64_t last) {
     std::int64_t& singular = singular_[static_cast<std::size_t>(block)];

@@ -59,8 +59,7 @@ class KernelGradient {
   double* volume = nullptr;  // (n) [m3]
 
  private:
-  void take_simplices(Body& body);
-  void sum_volumes(const Body& body);
+  static void require_simplices(const Body& body);
   void check_volumes(const Body& body) const;
   void check_distances(const Body& body) const;
   [[noreturn]] void refuse(const Body& body, std::int64_t i) const;
@@ -68,7 +67,7 @@ class KernelGradient {
   bool weigh(std::int64_t i);
 
   Kernel kernel_;
-  const std::int32_t* corners_ = nullptr;  // (4,m)
+  const std::int32_t* corners_ = nullptr;  // (4,simplices), the field
   std::vector<std::int64_t> singular_;     // per block: first particle without a gradient, or -1
 };
 

@@ -3,25 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "formulation/common/simplices.hpp"
+#include "formulation/common/body_simplices.hpp"
 
 namespace cleave::peridynamics {
 
 namespace {
 
-constexpr int kStride = 4;            // of simplex_particles
 constexpr double kLeastReach = 1.5;   // spacings
 constexpr double kCoincident = 1e-6;  // of the spacing: below, two points are one
-
-template <int D>
-void add_shares(const double* X, const std::int32_t* corners, std::int64_t simplices,
-                double* volume) {
-  for (std::int64_t s = 0; s < simplices; ++s) {
-    const std::int32_t* c = corners + kStride * s;
-    const double share = simplex_geometry<D>(X, c).volume / (D + 1);
-    for (int a = 0; a <= D; ++a) volume[c[a]] += share;
-  }
-}
 
 double extent_of(const double* X, std::int64_t n) {
   double extent = 0;
@@ -47,7 +36,7 @@ void Neighbourhood::build(Body& body, int wanted_dimension, double wanted_horizo
   X = body.point.X;
   volume = body.point.volume;
   square_limit = square_reach(horizon, Radius::closed);
-  take_simplices(body);
+  simplices = take_simplices(body);
   take_volumes(body);
   check_horizon(body);
   rows = neighbours_within(X, points, horizon, Radius::closed, body.label(), kMostHalfBonds,
@@ -63,26 +52,6 @@ void Neighbourhood::build(Body& body, int wanted_dimension, double wanted_horizo
   body.fields.allocate(CLEAVE_RELATION_BOND, bonds());
 }
 
-void Neighbourhood::take_simplices(Body& body) {
-  const int corner_count = body.dimension() + 1;
-  if (body.simplex_nodes != corner_count) {
-    throw Error(CLEAVE_UNSUPPORTED, text(body.label(), ": ", body.formulation->name(),
-                                         " takes simplices of ", corner_count, " particles, not ",
-                                         body.simplex_nodes, "; use a mesh of first order"));
-  }
-  simplices = static_cast<std::int64_t>(body.given_simplices.size()) / corner_count;
-  body.fields.allocate(CLEAVE_RELATION_SIMPLEX, simplices);
-  std::int32_t* corners = body.fields.integer("simplex_particles");
-  for (std::int64_t s = 0; s < simplices; ++s) {
-    const std::int64_t* given = body.given_simplices.data() + corner_count * s;
-    for (int a = 0; a < kStride; ++a) {
-      if (a < corner_count)
-        body.check_particle(given[a], CLEAVE_BAD_SIMPLEX, text("simplex ", body.number(s)));
-      corners[kStride * s + a] = a < corner_count ? static_cast<std::int32_t>(given[a]) : -1;
-    }
-  }
-}
-
 void Neighbourhood::take_volumes(Body& body) {
   if (body.given_volumes.empty() && simplices == 0) {
     throw Error(
@@ -93,10 +62,7 @@ void Neighbourhood::take_volumes(Body& body) {
   }
   double* v = body.point.volume;
   if (body.given_volumes.empty()) {
-    std::fill(v, v + points, 0.0);
-    const std::int32_t* corners = body.fields.integer("simplex_particles");
-    body.dimension() == 2 ? add_shares<2>(X, corners, simplices, v)
-                          : add_shares<3>(X, corners, simplices, v);
+    share_volumes(body, body.fields.integer("simplex_particles"), simplices);
   } else {
     std::copy(body.given_volumes.begin(), body.given_volumes.end(), v);
   }

@@ -75,7 +75,6 @@ class Neighbourhood {
   std::vector<std::int32_t> bond_begin;  // (n+1) bonds by their first end
 
  private:
-  void take_simplices(Body& body);
   void take_volumes(Body& body);
   void check_horizon(const Body& body) const;
   void check_distances(const Body& body) const;
