@@ -49,6 +49,11 @@ def _modes(text, where):
     raise ContractError(f"{where}: mode '{text}' is unknown; use quick, full or both")
 
 
+def shown(value, digits=6):
+    """Counts below 1e12 in full, other numbers rounded."""
+    return f"{value:.0f}" if abs(value) < 1e12 and value == round(value) else f"{value:.{digits}g}"
+
+
 @dataclasses.dataclass
 class Reference:
     """One line of reference.csv: the paper's number and the band that was written down before the run."""
@@ -69,7 +74,7 @@ class Reference:
 
     def allowed(self):
         if self.lower is not None and self.upper is not None:
-            return f"{self.lower:g}..{self.upper:g}"
+            return f"{shown(self.lower)}..{shown(self.upper)}"
         if self.lower is not None:
             return f">={self.lower:g}"
         return f"<={self.upper:g}" if self.upper is not None else "-"
@@ -98,8 +103,8 @@ class Figure:
 
     def columns(self):
         unit = f"[{self.reference.unit}]" if self.reference.unit else ""
-        known = "-" if self.reference.value is None else f"{self.reference.value:g}"
-        value = "-" if math.isnan(self.value) else f"{self.value:.5g}"
+        known = "-" if self.reference.value is None else shown(self.reference.value)
+        value = "-" if math.isnan(self.value) else shown(self.value, 5)
         return (self.case, self.quantity + unit, value, known, self.reference.allowed(), self.verdict)
 
 

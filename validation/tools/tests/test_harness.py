@@ -100,6 +100,13 @@ class Contract(unittest.TestCase):
         self.assertEqual(self.line(done, "speed")[-2:], ["-", "INFO"])
         self.assertEqual((done.stdout.splitlines()[-1], done.returncode), ("0 passed, 0 failed", 0))
 
+    def test_counts_are_printed_in_full(self):
+        self.write({"triples": 19786146480}, "triples,both,19786146480,19786146480,19786146480,,paper,text\n")
+        self.assertEqual(self.line(self.run_it(), "triples"),
+                         ["made-up", "triples", "19786146480", "19786146480", "19786146480..19786146480", "PASS"])
+        self.write({"triples": 19786146481}, "triples,both,19786146480,19786146480,19786146480,,paper,text\n")
+        self.assertEqual(self.line(self.run_it(), "triples")[-1], "FAIL")
+
     def test_a_studied_miss_is_a_miss_and_fails_only_when_strict(self):
         self.write({"speed": 2.5}, "speed,both,1.6,1,2,,paper,text\n", "speed,both,2.45,0.1,Why it is off\n")
         done = self.run_it()
