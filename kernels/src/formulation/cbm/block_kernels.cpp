@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
+#include <type_traits>
 
 #include "core/lane_memory.hpp"
 #include "core/tensor.hpp"
@@ -110,9 +112,19 @@ using Lanes = Pack<kGroup>;
 // Differences of a vector over the bonds of a group.
 template <int D>
 struct GroupRows {
-  alignas(32) double row[kGroup][kStride<D>];
-  void lanes(Lanes (&c)[kStride<D>]) const {
-    load_components<kStride<D>>(&row[0][0], kStride<D>, c);
+  Row<D> row[kGroup];
+  // Their components, a bond a lane.
+  CLEAVE_INLINE void lanes(Lanes (&c)[kStride<D>]) const {
+    if constexpr (std::is_same_v<Row<D>, Lanes> && Lanes::kRegisters == 1) {
+      Lanes::Register rows[kStride<D>], turned[kStride<D>];
+      for (int g = 0; g < kGroup; ++g) rows[g] = row[g].r[0];
+      Transposed<kStride<D>>::turn(rows, turned);
+      for (int k = 0; k < kGroup; ++k) c[k].r[0] = turned[k];
+    } else {
+      alignas(32) double memory[kGroup][kStride<D>];
+      for (int g = 0; g < kGroup; ++g) store_row<D>(row[g], memory[g]);
+      load_components<kStride<D>>(&memory[0][0], kStride<D>, c);
+    }
   }
 };
 
@@ -157,22 +169,21 @@ CLEAVE_INLINE Row<D> viscous_row(const BlockArrays& a, const BlockRows& rows, st
     for (int g = 0; g < kGroup; ++g) {
       const std::int64_t bond = std::min(b + g, last - 1);
       p[g] = rows.end[bond];
-      store_row<D>(load_row<D>(a.x + kStride<D> * p[g]) - xi, x.row[g]);
-      store_row<D>(load_row<D>(a.v + kStride<D> * p[g]) - vi, v.row[g]);
+      x.row[g] = load_row<D>(a.x + kStride<D> * p[g]) - xi;
+      v.row[g] = load_row<D>(a.v + kStride<D> * p[g]) - vi;
       weight[g] = rows.weight[bond] * (kTwins ? a.J[i] + a.J[p[g]] : a.J[i]);
     }
     Lanes length(a.length);
     if (a.X != nullptr) {
       GroupRows<D> X;
       const Row<D> Xi = load_row<D>(a.X + kStride<D> * i);
-      for (int g = 0; g < kGroup; ++g)
-        store_row<D>(load_row<D>(a.X + kStride<D> * p[g]) - Xi, X.row[g]);
+      for (int g = 0; g < kGroup; ++g) X.row[g] = load_row<D>(a.X + kStride<D> * p[g]) - Xi;
       length = length_of<D>(X);
     }
     store_lanes<Lanes, true>(viscous_scale<D>(a, x, v, length, load_lanes<Lanes, true>(weight, 1)),
                              scale, 1);
     for (int g = 0; g < kGroup && b + g < last; ++g) {
-      const Row<D> force = scale[g] * load_row<D>(x.row[g]);
+      const Row<D> force = scale[g] * x.row[g];
       sum = sum + force;
       double* to = a.fv + kStride<D> * p[g];
       store_row<D>(load_row<D>(to) - force, to);
@@ -189,6 +200,49 @@ void form_viscous_force(const BlockArrays& arrays) {
     sum = viscous_row<D, true>(a, a.twins, i, sum);
     sum = viscous_row<D, false>(a, a.halves, i, sum);
     store_row<D>(sum, a.fv + kStride<D> * i);
+  }
+}
+
+// The least of limit - |x_ip|^2 over the bonds of a row and `least`.
+template <int D>
+CLEAVE_INLINE Lanes least_left(const LookArrays& a, const BlockRows& rows, const float* limits,
+                               std::int64_t i, Lanes least) {
+  const Row<D> xi = load_row<D>(a.x + kStride<D> * i);
+  const std::int64_t first = rows.begin[i], last = first + rows.count[i];
+  for (std::int64_t b = first; b < last; b += kGroup) {
+    GroupRows<D> x;
+    alignas(32) double limit[kGroup];
+    for (int g = 0; g < kGroup; ++g) {
+      const std::int64_t bond = std::min(b + g, last - 1);
+      x.row[g] = load_row<D>(a.x + kStride<D> * rows.end[bond]) - xi;
+      limit[g] = limits[bond];
+    }
+    Lanes d[kStride<D>];
+    x.lanes(d);
+    Lanes square = d[0] * d[0];
+    for (int k = 1; k < D; ++k) square = square + d[k] * d[k];
+    const Lanes left = load_lanes<Lanes, true>(limit, 1) - square;
+    least = select(left < least, left, least);
+  }
+  return least;
+}
+
+template <int D>
+void look(const LookArrays& arrays) {
+  const LookArrays a = arrays;
+  const auto place = [&](std::int64_t from, std::int64_t l) {
+    store_row<D>(load_row<D>(a.X + D * from) + load_row<D>(a.u + D * from), a.x + kStride<D> * l);
+  };
+  for (std::int64_t l = 0; l < a.own; ++l) place(a.first + l, l);
+  for (std::int64_t l = a.own; l < a.locals; ++l) place(a.foreign[l - a.own], l);
+  for (std::int64_t i = 0; i < a.own; ++i) {
+    if (a.slack[i] > 0) continue;
+    Lanes least(std::numeric_limits<double>::infinity());
+    least = least_left<D>(a, a.twins, a.twin_limits, i, least);
+    least = least_left<D>(a, a.halves, a.half_limits, i, least);
+    double left[kGroup];
+    store_lanes<Lanes, true>(least, left, 1);
+    a.slack[i] = static_cast<float>(std::min({left[0], left[1], left[2], left[3]}) * a.scale);
   }
 }
 
@@ -311,8 +365,12 @@ PowerSums kick_any(const MotionArrays& a, std::int64_t first, std::int64_t last,
 
 extern const BlockKernels kBlockKernels;
 constinit const BlockKernels kBlockKernels = {
-    {&advance_any<2>, &advance_any<3>},     {&kick_any<2>, &kick_any<3>},
-    {&form_gradient<2>, &form_gradient<3>}, {&largest_square_strain<2>, &largest_square_strain<3>},
-    {&form_force<2>, &form_force<3>},       {&form_viscous_force<2>, &form_viscous_force<3>}};
+    {&advance_any<2>, &advance_any<3>},
+    {&kick_any<2>, &kick_any<3>},
+    {&form_gradient<2>, &form_gradient<3>},
+    {&largest_square_strain<2>, &largest_square_strain<3>},
+    {&form_force<2>, &form_force<3>},
+    {&form_viscous_force<2>, &form_viscous_force<3>},
+    {&look<2>, &look<3>}};
 
 }  // namespace cleave

@@ -38,6 +38,20 @@ struct BlockArrays {
   double length;        // l [m]
 };
 
+// What is looked at for bonds near to breaking. slack: by how much bonds of a row may at least still grow; rows
+// above zero are left alone. X, u are of all particles by place, at a distance of D, and one number more is
+// read. foreign: places of the local particles from own on.
+struct LookArrays {
+  std::int32_t first, own, locals;
+  const std::int32_t* foreign;
+  BlockRows twins, halves;
+  const float *twin_limits, *half_limits;  // of the square of the length [m2]
+  double scale;                            // 1 / (2 largest length that a limit allows) [m-1]
+  const double *X, *u;                     // [m]
+  double* x;                               // (kStride, locals) becomes X + u [m]
+  float* slack;                            // (own) [m]
+};
+
 // Particles first <= p < last of the whole body; vectors stand at a distance of D. Pointers that may be NULL
 // say so.
 struct MotionArrays {
@@ -73,6 +87,9 @@ struct BlockKernels {
   void (*force[2])(const BlockArrays&);
   // fv of all local particles, form "frozen".                                        [CBM 21, 22]
   void (*viscous_force[2])(const BlockArrays&);
+  // slack of rows that have none: (limit - |x_ip|^2) scale, the least of the row, which is not more than
+  // (sqrt(limit) - |x_ip|) where that is above zero.
+  void (*look[2])(const LookArrays&);
 };
 
 }  // namespace cleave_call
@@ -81,6 +98,7 @@ namespace cleave {
 using cleave_call::BlockArrays;
 using cleave_call::BlockKernels;
 using cleave_call::BlockRows;
+using cleave_call::LookArrays;
 using cleave_call::MotionArrays;
 using cleave_call::PowerSums;
 using cleave_call::VelocityBox;

@@ -11,19 +11,55 @@ std::size_t at(std::int64_t k) { return static_cast<std::size_t>(k); }
 
 // Bonds that may break in a step before a list has to grow.
 constexpr std::size_t kReserve = 65536;
+
+// 1 / (2 L (1 + 1e-6)) of the largest length L that a limit of the block allows: with it
+// (L_b^2 - |x|^2) / (L_b + |x|) >= (L_b^2 - |x|^2) / (2 L) bounds what a bond b inside its limit may grow.
+double scale_of(const Block& block) {
+  float longest = 0;
+  for (const BlockBonds* bonds : {&block.twins, &block.halves})
+    for (const float limit : bonds->square_limit)
+      if (limit < std::numeric_limits<float>::infinity()) longest = std::max(longest, limit);
+  return longest > 0 ? 1 / (2 * std::sqrt(static_cast<double>(longest)) * (1 + 1e-6)) : 1.0;
+}
+
+BlockRows rows_of(const BlockBonds& b) {
+  return {b.begin.data(), b.count.data(), b.end.data(), nullptr, nullptr};
+}
+
+std::int32_t place_of(const Block& block, std::int32_t local) {
+  return local < block.own ? block.first + local : block.foreign[at(local - block.own)];
+}
+
 }  // namespace
 
 void BlockSearch::setup(const BlockNetwork& blocks, bool active) {
   active_ = active;
+  if (!active) return;
   margins_.assign(blocks.blocks.size(), {});
-  if (active) broken_.reserve(kReserve);
+  slack_.assign(blocks.place.size(), 0.0F);
+  broken_.reserve(kReserve);
 }
 
-void BlockSearch::forget() { std::fill(margins_.begin(), margins_.end(), Margin{}); }
+std::int64_t BlockSearch::bytes() const {
+  return static_cast<std::int64_t>(slack_.size() * sizeof(float));
+}
+
+void BlockSearch::start(const BlockNetwork& blocks, std::span<const double> X,
+                        std::span<const double> u) {
+  if (!active_) return;
+  double extent = 0;
+  for (std::size_t c = 0; c < X.size(); ++c)
+    extent = std::fmax(extent, std::fabs(X[c]) + std::fabs(u[c]));
+  std::fill(slack_.begin(), slack_.end(), 0.0F);
+  for (std::size_t b = 0; b < margins_.size(); ++b) {
+    margins_[b] = {};
+    margins_[b].scale = scale_of(blocks.blocks[b]);
+    margins_[b].extent = extent;
+  }
+}
 
 void BlockSearch::moved(const BlockNetwork& blocks, const std::vector<VelocityBox>& boxes,
                         double dt) {
-  if (!active_) return;
   for (std::size_t b = 0; b < margins_.size(); ++b) {
     VelocityBox box = boxes[b];
     for (const std::int32_t other : blocks.blocks[b].beside)
@@ -31,93 +67,83 @@ void BlockSearch::moved(const BlockNetwork& blocks, const std::vector<VelocityBo
         box.low[k] = std::fmin(box.low[k], boxes[at(other)].low[k]);
         box.high[k] = std::fmax(box.high[k], boxes[at(other)].high[k]);
       }
-    double square = 0;
+    double square = 0, speed = 0;
     for (int k = 0; k < 3; ++k) {
       const double range = box.high[k] - box.low[k];
       if (range > 0) square += range * range;
+      speed = std::max({speed, std::fabs(box.low[k]), std::fabs(box.high[k])});
     }
     margins_[b].travel += dt * std::sqrt(square);
+    margins_[b].extent += dt * speed;
     margins_[b].steps += 1;
   }
 }
 
 // A step rounds u and x by a few units of their last place; 1e-14 of the coordinates is more than 40.
-bool BlockSearch::safe(const Margin& m) const {
-  const double rounding = 1e-14 * (m.extent + m.travel) * (m.steps + 4);
-  return m.travel * (1 + 1e-9) + rounding < m.slack;
+double BlockSearch::Margin::used() const {
+  return travel * (1 + 1e-9) + 1e-14 * extent * (steps + 4);
 }
 
-// slack = min(L - |x|) >= min(L^2 - |x|^2) / (2 max L) over bonds with a criterion.
 template <int D>
-void BlockSearch::look(const Network& network, const BlockNetwork& blocks, const Block& block,
-                       const double* X, const double* u, double* x, Margin& margin,
-                       std::vector<std::int32_t>& found) const {
-  double least = std::numeric_limits<double>::infinity(), extent = 0;
-  float longest = 0;
-  const auto place = [&](std::int64_t local) -> std::int64_t {
-    return local < block.own ? block.first + local : block.foreign[at(local - block.own)];
-  };
-  for (std::int64_t l = 0; l < block.locals(); ++l) {
-    const std::int64_t p = place(l);
-    for (int k = 0; k < D; ++k) {
-      const double displacement = u[D * p + k];
-      x[D * l + k] = X[D * p + k] + displacement;
-      extent = std::fmax(extent, std::fabs(X[D * p + k]) + std::fabs(displacement));
-    }
-  }
-  const auto meets = [&](std::int64_t i, std::int64_t p, double square) {
-    const std::int32_t first = blocks.given[at(place(i))], second = blocks.given[at(place(p))];
-    const std::int32_t bond = network.find_bond(first, second);
-    const double limit = (1 + network.critical[bond]) * network.length(first, second);
-    return network.status[bond] == kIntact && square >= limit * limit ? bond : -1;
-  };
-  const auto test = [&](std::int64_t i, std::int64_t p, float limit) {
+void BlockSearch::find_in_row(const Network& network, const BlockNetwork& blocks,
+                              const Block& block, std::int32_t i, Worker& worker) {
+  const std::int32_t place = place_of(block, i);
+  const auto test = [&](const BlockBonds& bonds, std::int32_t b) {
+    const std::int32_t p = bonds.end[at(b)], other = place_of(block, p);
+    if (other < place) return;  // the other half's
     double square = 0;
     for (int k = 0; k < D; ++k) {
-      const double d = x[D * p + k] - x[D * i + k];
+      const double d = worker.x[at(kStride<D> * p + k)] - worker.x[at(kStride<D> * i + k)];
       square += d * d;
     }
-    const double left = limit - square;
-    least = left < least ? left : least;
-    if (limit < std::numeric_limits<float>::max()) longest = std::max(longest, limit);
-    if (left > 0) return;
-    const std::int32_t bond = meets(i, p, square);
-    if (bond >= 0) found.push_back(bond);
+    if (static_cast<double>(bonds.square_limit[at(b)]) > square) return;
+    const std::int32_t first = blocks.given[at(place)], second = blocks.given[at(other)];
+    const std::int32_t bond = network.find_bond(first, second);
+    const double limit = (1 + network.critical[bond]) * network.length(first, second);
+    if (network.status[bond] == kIntact && square >= limit * limit) worker.found.push_back(bond);
   };
-  for (std::int64_t i = 0; i < block.own; ++i) {
-    const auto row = [i](const BlockBonds& bonds, const auto& f) {
-      for (std::int32_t b = bonds.begin[at(i)]; b < bonds.begin[at(i)] + bonds.count[at(i)]; ++b)
-        f(b);
-    };
-    row(block.twins,
-        [&](std::int32_t b) { test(i, block.twins.end[at(b)], block.twins.square_limit[at(b)]); });
-    row(block.halves, [&](std::int32_t b) {
-      const std::int64_t p = block.halves.end[at(b)];
-      if (place(i) < place(p)) test(i, p, block.halves.square_limit[at(b)]);
-    });
+  for (const BlockBonds* bonds : {&block.twins, &block.halves})
+    for (std::int32_t b = 0; b < bonds->count[at(i)]; ++b) test(*bonds, bonds->begin[at(i)] + b);
+}
+
+template <int D>
+void BlockSearch::look(const Network& network, const BlockNetwork& blocks, const Block& block,
+                       const BlockKernels& kernels, const double* X, const double* u,
+                       Margin& margin, Worker& worker) {
+  float* slack = slack_.data() + block.first;
+  const double used = margin.used();
+  for (std::int32_t i = 0; i < block.own; ++i)
+    slack[i] = static_cast<float>((slack[i] - used) * (1 - 1e-6));
+  kernels.look[D - 2]({block.first, block.own, block.locals(), block.foreign.data(),
+                       rows_of(block.twins), rows_of(block.halves), block.twins.square_limit.data(),
+                       block.halves.square_limit.data(), margin.scale, X, u, worker.x.data(),
+                       slack});
+  float least = std::numeric_limits<float>::infinity();
+  for (std::int32_t i = 0; i < block.own; ++i) {
+    least = std::min(least, slack[i]);
+    if (!(slack[i] > 0)) find_in_row<D>(network, blocks, block, i, worker);
   }
-  margin.slack = longest > 0 ? least / (2 * std::sqrt(static_cast<double>(longest)) * (1 + 1e-6))
-                             : std::numeric_limits<double>::infinity();
+  margin.least = least;
   margin.travel = margin.steps = 0;
-  margin.extent = extent;
 }
 
 template <int D>
 const std::vector<std::int32_t>& BlockSearch::find(const BlockNetwork& blocks,
-                                                   const Network& network, const double* X,
+                                                   const Network& network,
+                                                   const BlockKernels& kernels, const double* X,
                                                    const double* u, ThreadTeam& team) {
   broken_.clear();
   if (!active_) return broken_;
   while (static_cast<int>(workers_.size()) < team.size()) {
-    workers_.push_back(
-        {std::vector<double>(at(D * static_cast<std::int64_t>(blocks.largest))), {}});
+    workers_.emplace_back();
+    workers_.back().x.assign(at(kStride<D> * static_cast<std::int64_t>(blocks.largest)), 0.0);
     workers_.back().found.reserve(kReserve);
   }
   for (Worker& worker : workers_) worker.found.clear();
   team.for_blocks(static_cast<std::int64_t>(margins_.size()), [&](std::int64_t b, int worker) {
-    if (safe(margins_[at(b)])) return;
-    Worker& w = workers_[at(worker)];
-    look<D>(network, blocks, blocks.blocks[at(b)], X, u, w.x.data(), margins_[at(b)], w.found);
+    Margin& margin = margins_[at(b)];
+    if (margin.used() < margin.least) return;
+    look<D>(network, blocks, blocks.blocks[at(b)], kernels, X, u, margin, workers_[at(worker)]);
   });
   for (const Worker& worker : workers_)
     broken_.insert(broken_.end(), worker.found.begin(), worker.found.end());
@@ -126,10 +152,10 @@ const std::vector<std::int32_t>& BlockSearch::find(const BlockNetwork& blocks,
 }
 
 template const std::vector<std::int32_t>& BlockSearch::find<2>(const BlockNetwork&, const Network&,
-                                                               const double*, const double*,
-                                                               ThreadTeam&);
+                                                               const BlockKernels&, const double*,
+                                                               const double*, ThreadTeam&);
 template const std::vector<std::int32_t>& BlockSearch::find<3>(const BlockNetwork&, const Network&,
-                                                               const double*, const double*,
-                                                               ThreadTeam&);
+                                                               const BlockKernels&, const double*,
+                                                               const double*, ThreadTeam&);
 
 }  // namespace cleave::cbm

@@ -1,12 +1,14 @@
-// Looks for bonds that meet the criterion, and mostly does not look: a block whose bonds were far from
-// breaking when it was last looked at cannot have a broken one before its particles have moved that far
+// Looks for bonds that meet the criterion, and mostly does not look: bonds of a particle that were far from
+// breaking when they were last looked at cannot break before the particles of the block have moved that far
 // against each other. The bound is rigorous, rounding included, so that what is found, and when, does
 // not depend on when was looked before.
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "core/aligned.hpp"
 #include "core/thread_team.hpp"
 #include "formulation/cbm/block_kernels.hpp"
 #include "formulation/cbm/block_network.hpp"
@@ -16,33 +18,42 @@ namespace cleave::cbm {
 class BlockSearch {
  public:
   void setup(const BlockNetwork& blocks, bool active);
-  // Every block is looked at next time.
-  void forget();
+  std::int64_t bytes() const;
+  // From this state on; every bond is looked at next time.
+  void start(const BlockNetwork& blocks, std::span<const double> X, std::span<const double> u);
   // Particles went on by dt v.
   void moved(const BlockNetwork& blocks, const std::vector<VelocityBox>& boxes, double dt);
-  // Bonds that are intact and meet the criterion, ascending.      [in] by place: X, u (D,n)
+  // Bonds that are intact and meet the criterion, ascending.  [in] by place: X, u (D,n) and a number more
   template <int D>
   const std::vector<std::int32_t>& find(const BlockNetwork& blocks, const Network& network,
-                                        const double* X, const double* u, ThreadTeam& team);
+                                        const BlockKernels& kernels, const double* X,
+                                        const double* u, ThreadTeam& team);
 
  private:
   struct Margin {
-    double slack = -1;  // [m] that the tightest bond may still grow by, when last looked at
-    double travel = 0;  // [m] bound of what any bond has grown since
-    double extent = 0;  // [m] largest coordinate, for rounding
+    double least = -1;  // [m] least slack of a row
+    double travel = 0;  // [m] bound of what any bond has grown since the block was last looked at
+    double extent = 0;  // [m] bound of coordinates and displacements, for rounding
     double steps = 0;   // since then
+    double scale = 0;   // see LookArrays
+    double used() const;
   };
-  bool safe(const Margin& m) const;
+  struct Worker {
+    AlignedReals x;                   // positions of the particles of a block
+    std::vector<std::int32_t> found;  // broken bonds
+  };
   template <int D>
-  void look(const Network& network, const BlockNetwork& blocks, const Block& block, const double* X,
-            const double* u, double* x, Margin& margin, std::vector<std::int32_t>& found) const;
+  void look(const Network& network, const BlockNetwork& blocks, const Block& block,
+            const BlockKernels& kernels, const double* X, const double* u, Margin& margin,
+            Worker& worker);
+  template <int D>
+  static void find_in_row(const Network& network, const BlockNetwork& blocks, const Block& block,
+                          std::int32_t i, Worker& worker);
 
   bool active_ = false;
   std::vector<Margin> margins_;
-  struct Worker {
-    std::vector<double> x;            // positions of the particles of a block
-    std::vector<std::int32_t> found;  // broken bonds
-  };
+  std::vector<float> slack_;  // (n) by place: how much the bonds of a row could still grow when its
+                              // block was last looked at [m]
   std::vector<Worker> workers_;
   std::vector<std::int32_t> broken_;
 };

@@ -72,7 +72,7 @@ void BlockStep::load(Body& body) {
   const std::int64_t n = body.particles;
   const PointArrays& pt = body.point;
   const auto vectors = [&](const double* field, std::vector<double>& to) {
-    to.resize(at(D * n));
+    to.resize(at(D * n + 1));  // so that vectors of four may be loaded
     for_blocks(*team_, n, [&](std::int64_t, std::int64_t first, std::int64_t last) {
       for (std::int64_t p = first; p < last; ++p)
         for (int k = 0; k < D; ++k) to[at(D * p + k)] = field[kVector * net_.given[at(p)] + k];
@@ -106,8 +106,8 @@ void BlockStep::load(Body& body) {
   }
   load_external<D>(body);
   load_driven(body);
-  search_.forget();
   if (!rows_loaded_) rebuild_all_rows();
+  search_.start(net_, X_, u_);
   rows_loaded_ = loaded_ = true;
   current_.fill(true);
   current_[kDeformation] = false;
@@ -159,13 +159,13 @@ void BlockStep::load_external(const Body& body) {
 void BlockStep::load_driven(const Body& body) {
   driven_.clear();
   is_driven_.assign(at(body.particles), 0);
-  driven_entry_.assign(at(body.particles), -1);
+  std::vector<std::int32_t> entry_of(at(body.particles), -1);  // into driven_
   driven_.reserve(body.prescribed.size());
   for (std::size_t k = 0; k < body.prescribed.size(); ++k) {
     const PrescribedDof& dof = body.prescribed[k];
     const std::int32_t place = net_.place[at(dof.particle)];
     is_driven_[at(place)] = 1;
-    std::int32_t& e = driven_entry_[at(place)];
+    std::int32_t& e = entry_of[at(place)];
     if (e < 0) {
       e = static_cast<std::int32_t>(driven_.size());
       driven_.push_back({place, {-1, -1, -1}, {}});
@@ -341,7 +341,7 @@ std::int64_t BlockStep::bytes() const {
   for (const Scratch& s : scratch_)
     for (const auto* a : {&s.u, &s.f, &s.fv, &s.x, &s.v, &s.X, &s.rows, &s.h, &s.P, &s.J})
       sum += bytes_of(*a);
-  return sum + static_cast<std::int64_t>(is_driven_.capacity());
+  return sum + search_.bytes() + static_cast<std::int64_t>(is_driven_.capacity());
 }
 
 template void BlockStep::load<2>(Body&);

@@ -280,7 +280,8 @@ void BlockStep::update_forces(Body& body, const Clock& clock, double half, bool 
 
 template <int D>
 void BlockStep::update_in(Body& body, const Clock& clock) {
-  const auto& broken = search_.find<D>(net_, parts_.network, X_.data(), u_.data(), *team_);
+  const auto& broken =
+      search_.find<D>(net_, parts_.network, *kernels_, X_.data(), u_.data(), *team_);
   rebuild_rows(body, parts_.fracture.step(body, parts_.network, parts_.stabilisation, clock, broken,
                                           state(body)));
   const double half = 0.5 * clock.dt;

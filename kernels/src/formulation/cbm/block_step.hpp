@@ -143,7 +143,6 @@ class BlockStep final : public ResidentStep {
       energy_;                   // (9,n), (n): of laws whose stress is not a function of the state
   std::vector<char> is_driven_;  // (n)
   std::vector<Driven> driven_;
-  std::vector<std::int32_t> driven_entry_;     // (n) into driven_; -1: free
   std::vector<double> slots_, viscous_slots_;  // (D,slots)
   std::vector<BlockResult> results_;
   std::vector<VelocityBox> boxes_;

@@ -163,41 +163,56 @@ TEST_P(Blocks, BitsDependNeitherOnThreadsNorOnLooking) {
   EXPECT_EQ(one.events(), three.events());
 }
 
+using Motion = void (*)(double x, double y, double* v);
+
+// Step and ends of every broken bond.
+std::vector<std::array<std::int64_t, 3>> broken_bonds(std::int32_t order, Motion motion) {
+  const SimplexMesh m = patch(2, 24, kSpacing, 0.2, 5);
+  Model model;
+  ok(cleave_model_set_order(model, order));
+  model.add({CLEAVE_FORMULATION_cbm, CLEAVE_MATERIAL_svk, CLEAVE_PLANE_STRAIN}, m,
+            {{"fracture", "critical_strain", 0.01}});
+  model.setup();
+  std::vector<double> v(m.X.size(), 0.0);
+  for (std::size_t i = 0; i < v.size() / 3; ++i)
+    motion(m.X[3 * i] - 0.12, m.X[3 * i + 1] - 0.12, &v[3 * i]);
+  model.put("velocity", v);
+  model.initialise();
+  const double dt = 0.4 * model.stable_step();
+  for (int n = 0; n < 200; ++n) model.step(dt);
+  std::vector<std::array<std::int64_t, 3>> events;
+  int64_t count = 0;
+  ok(cleave_body_event_count(model, 0, &count));
+  for (int64_t k = 0; k < count; ++k) {
+    cleave_event e{};
+    e.size = sizeof e;
+    ok(cleave_body_event_get(model, 0, k, &e));
+    events.push_back({e.step, e.first, e.second});
+  }
+  return events;
+}
+
 // A body that flies and spins fast without straining is looked at rarely; what breaks it at last is found in
 // the step in which it happens all the same.
 TEST(BlockSearch, FindsEveryBondInItsStepWhileTheBodySpins) {
-  const SimplexMesh m = patch(2, 24, kSpacing, 0.2, 5);
-  const Case body{CLEAVE_FORMULATION_cbm, CLEAVE_MATERIAL_svk, CLEAVE_PLANE_STRAIN};
-  const auto run = [&](int32_t order) {
-    auto model = std::make_unique<Model>();
-    ok(cleave_model_set_order(*model, order));
-    model->add(body, m, {{"fracture", "critical_strain", 0.01}});
-    model->setup();
-    std::vector<double> v(m.X.size(), 0.0);
-    for (std::size_t i = 0; i < v.size() / 3; ++i) {
-      const double x = m.X[3 * i] - 0.12, y = m.X[3 * i + 1] - 0.12;
-      v[3 * i] = 500 - 400 * y + (x > 0.1 ? 25 : 0);
-      v[3 * i + 1] = 400 * x;
-    }
-    model->put("velocity", v);
-    model->initialise();
-    const double dt = 0.4 * model->stable_step();
-    for (int n = 0; n < 200; ++n) model->step(dt);
-    std::vector<std::array<double, 4>> events;
-    int64_t count = 0;
-    ok(cleave_body_event_count(*model, 0, &count));
-    for (int64_t k = 0; k < count; ++k) {
-      cleave_event e{};
-      e.size = sizeof e;
-      ok(cleave_body_event_get(*model, 0, k, &e));
-      events.push_back({static_cast<double>(e.step), static_cast<double>(e.first),
-                        static_cast<double>(e.second), 0});
-    }
-    return events;
+  const Motion motion = [](double x, double y, double* v) {
+    v[0] = 500 - 400 * y + (x > 0.1 ? 25 : 0);
+    v[1] = 400 * x;
   };
-  const auto rows = run(CLEAVE_ORDER_ROWS);
+  const auto rows = broken_bonds(CLEAVE_ORDER_ROWS, motion);
   EXPECT_GT(rows.size(), 20u);
-  EXPECT_EQ(run(CLEAVE_ORDER_BLOCKS), rows);
+  EXPECT_EQ(broken_bonds(CLEAVE_ORDER_BLOCKS, motion), rows);
+}
+
+// Two halves that fly apart: bonds grow as fast as the bound allows, over ten steps and more.
+TEST(BlockSearch, FindsEveryBondInItsStepWhileHalvesPart) {
+  for (const Motion motion :
+       {Motion([](double x, double, double*v) { v[0] = x > 0.005 ? 60 : 0; }),
+        Motion([](double, double y, double*v) { v[1] = y > 0.005 ? 25 : -25; })}) {
+    const auto rows = broken_bonds(CLEAVE_ORDER_ROWS, motion);
+    EXPECT_GT(rows.size(), 20u);
+    EXPECT_EQ(broken_bonds(CLEAVE_ORDER_BLOCKS, motion), rows);
+  }
 }
 
 std::vector<BlockCase> block_cases() {
