@@ -176,6 +176,7 @@ TEST_F(Peridynamics, RestartIsBitwise) {
       "&load name='end' kind='velocity' set='end' directions='x' value=0.04 curve='smooth' ramp=12 "
       "/\n"
       "&output every_steps=7 fields='velocity','damage','equivalent_stress','largest_stretch' /\n"
+      "&section name='end' set='end' /\n&section name='waist' point=4.3,0,0 normal=1,0,0 /\n"
       "&history every_steps=3 /\n&checkpoint every_steps=9 keep=50 /\n";
   for (const auto& [whole, body] : bodies) {
     const std::string cut = whole + "cut";
@@ -185,6 +186,8 @@ TEST_F(Peridynamics, RestartIsBitwise) {
     const auto h = read_history(path(whole + "/case.history.csv"));
     EXPECT_GT(h.at("broken").back(), 5) << whole;
     EXPECT_LT(h.at("broken")[2], h.at("broken").back()) << whole;
+    EXPECT_NE(h.at("reaction_end_x").back(), 0) << whole;
+    EXPECT_NE(h.at("section_waist_force_x").back(), 0) << whole;
     fs::create_directories(path(cut));
     const char* const files[] = {"case.exo", "case.history.nc", "case.history.csv",
                                  "case.events.nc"};
