@@ -28,8 +28,12 @@ class ContinuumKinematicsPeridynamics final : public peridynamics::Peridynamic {
                                          int worker) const override;
   Mat<3> point_stress(const Body& body, std::int64_t i, int worker) const override;
 
+  const Constants& constants(std::size_t i) const {
+    return constants_[static_cast<std::size_t>(material_of_[i])];
+  }
+  bool any(double Constants::*constant) const;  // not zero in some material
   void find_constants(const Body& body);
-  void check_constants(const Body& body) const;
+  void check_constants(const Body& body, std::size_t region) const;
   void weigh(const Body& body);
   double calibration(std::int64_t full) const;
   double hood_volume(std::int64_t i) const;
@@ -47,7 +51,7 @@ class ContinuumKinematicsPeridynamics final : public peridynamics::Peridynamic {
     return damage_.whole(i) || damage_.intact(hood_.find_half(i, p));
   }
 
-  Constants constants_;
+  std::vector<Constants> constants_;  // of each material
   peridynamics::HoodVolume hood_form_ = peridynamics::HoodVolume::sum;
   bool conservative_ = false, signed_volume_ = false;
   double full_count_ = 0;              // neighbours of a full lattice neighbourhood, form sphere

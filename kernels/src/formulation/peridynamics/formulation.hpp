@@ -24,6 +24,7 @@ struct PointEnergy {
 class Peridynamic : public Formulation {
  public:
   bool takes_volumes() const override { return true; }
+  bool takes_regions() const override { return true; }
   void setup(Body& body, ThreadTeam& team) override;
   void rebuild(Body& body, ThreadTeam& team) override;
   double stable_step(const Body&) const override { return stable_step_; }
@@ -90,7 +91,12 @@ class Peridynamic : public Formulation {
 
   Neighbourhood hood_;
   Damage damage_;
-  Elastic elastic_;
+  std::vector<Elastic> materials_;         // of the body, then of its regions
+  std::vector<std::int32_t> material_of_;  // (n) place in materials_
+  const Elastic& elastic(std::int64_t i) const {
+    return materials_[static_cast<std::size_t>(material_of_[static_cast<std::size_t>(i)])];
+  }
+  Reach reach() const { return {dimension_, hood_.horizon, hood_.section}; }
   int dimension_ = 3;  // 1: a bar
   bool use_lattice_ = true;
   AlignedReals now_, reference_;  // (4,n) x y z right; X Y Z volume
