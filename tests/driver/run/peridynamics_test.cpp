@@ -232,7 +232,9 @@ TEST_F(Peridynamics, RestartIsBitwise) {
                     "&region set='middle' material='stiff' critical_strain=0.015 /\n"},
       {"triangles",
        square + "material='unit' formulation='cpd' /\n&cpd C2=0.01 weights='conservative' /\n"},
-      {"lattice", cubic + "material='unit' formulation='cpd' /\n&cpd C3=1e-4 /\n"}};
+      {"lattice", cubic + "material='unit' formulation='cpd' /\n&cpd C3=1e-4 /\n"},
+      {"weighed", cubic + "material='unit' formulation='cpd' /\n"
+                          "&cpd C3=1e-4 weights='conservative' /\n"}};
   const std::string pull =
       kMaterial + kHorizon + "&fracture critical_strain=0.02 /\n" +
       "&notch lower=5.2,-1 upper=6.2,2.2 /\n&zone name='low' upper=1.2,20 /\n&zone name='high' "
@@ -248,7 +250,7 @@ TEST_F(Peridynamics, RestartIsBitwise) {
   for (const auto& [whole, body] : bodies) {
     const std::string cut = whole + "cut";
     std::string load = pull;
-    if (whole == "lattice") load.replace(load.find("10.8"), 4, " 9.2");
+    if (whole == "lattice" || whole == "weighed") load.replace(load.find("10.8"), 4, " 9.2");
     ASSERT_EQ(run("t_end=30", body + load, whole), 0) << whole;
     const auto h = read_history(path(whole + "/case.history.csv"));
     EXPECT_GT(h.at("broken").back(), 5) << whole;

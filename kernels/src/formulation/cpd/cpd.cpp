@@ -1,7 +1,9 @@
 #include "formulation/cpd/cpd.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 #include <span>
 
 #include "core/instruction_set.hpp"
@@ -69,8 +71,9 @@ void ContinuumKinematicsPeridynamics::prepare(Body& body) {
   if (any(&Constants::three)) {
     sums_.assign(static_cast<std::size_t>(4 * hood_.points), 0.0);
     damaged_.reserve(left_.size());
-    const Lattice lattice = use_lattice_ && !conservative_ ? find_lattice(hood_) : Lattice{};
-    if (!lattice.found() || !lattice_.setup(hood_, lattice, signed_volume_)) cloud_.setup(hood_);
+    const Lattice lattice = use_lattice_ ? find_lattice(hood_) : Lattice{};
+    if (!lattice.found() || !lattice_.setup(hood_, lattice, signed_volume_, conservative_))
+      cloud_.setup(hood_);
   }
 }
 
@@ -209,8 +212,10 @@ void ContinuumKinematicsPeridynamics::add_triangles(Body& body, ThreadTeam& team
 // All as if every bond carried, then points with a broken bond by themselves; conservative weights know of
 // broken bonds.                                                                        [PD three, 13]
 void ContinuumKinematicsPeridynamics::add_tetrahedra(Body& body, ThreadTeam& team) {
-  if (lattice_.active()) {
-    lattice_.sum(body.point.u, team, sums_.data());
+  if (lattice_.active() && conservative_) {
+    lattice_.sum(body.point.u, three_.data(), team, sums_.data());
+  } else if (lattice_.active()) {
+    lattice_.sum(body.point.u, nullptr, team, sums_.data());
     damaged_.clear();
     for (std::int64_t i = 0; i < hood_.points; ++i)
       if (!damage_.whole(i)) damaged_.push_back(static_cast<std::int32_t>(i));
@@ -289,8 +294,7 @@ PointEnergy ContinuumKinematicsPeridynamics::point_energy(const Body& body, std:
   return sum;
 }
 
-Mat<3> ContinuumKinematicsPeridynamics::point_stress(const Body& body, std::int64_t i,
-                                                     int worker) const {
+Mat<3> ContinuumKinematicsPeridynamics::pairs_stress(const Body& body, std::int64_t i) const {
   const double bond = (conservative_ ? 2 : 1) * left_[static_cast<std::size_t>(i)];
   Mat<3> stress;
   for_carrying(i, [&](std::int32_t p, std::int32_t) {
@@ -311,6 +315,12 @@ Mat<3> ContinuumKinematicsPeridynamics::point_stress(const Body& body, std::int6
       add_dyad(stress, on_k, difference<3>(hood_.X, i, t.k));
     });
   }
+  return stress;
+}
+
+Mat<3> ContinuumKinematicsPeridynamics::point_stress(const Body& body, std::int64_t i,
+                                                     int worker) const {
+  Mat<3> stress = pairs_stress(body, i);
   if (!three_.empty()) {
     double sums[9] = {};
     if (const Star* star = carrying_star(body, i, worker))
@@ -322,6 +332,31 @@ Mat<3> ContinuumKinematicsPeridynamics::point_stress(const Body& body, std::int6
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 3; ++c) stress(r, c) /= hood_.volume[i];
   return stress;
+}
+
+void ContinuumKinematicsPeridynamics::point_stresses(const Body& body, std::int64_t first,
+                                                     std::int64_t last, int worker,
+                                                     Mat<3>* stress) const {
+  if (!lattice_.active()) {
+    Peridynamic::point_stresses(body, first, last, worker, stress);
+    return;
+  }
+  for (std::int64_t begin = first; begin < last; begin += 8) {
+    std::array<std::int32_t, 8> points{};
+    const auto count = static_cast<std::size_t>(std::min<std::int64_t>(8, last - begin));
+    std::iota(points.begin(), points.end(), static_cast<std::int32_t>(begin));
+    std::array<Mat<3>, 8> sums;
+    lattice_.stress_sums(hood_, damage_, std::span(points.data(), count), body.point.u, worker,
+                         sums.data());
+    for (std::size_t l = 0; l < count; ++l) {
+      const std::int64_t i = begin + static_cast<std::int64_t>(l);
+      const Mat<3> pairs = pairs_stress(body, i);
+      const double w = 0.25 * three_[static_cast<std::size_t>(i)];
+      for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 3; ++c)
+          stress[i - first](r, c) = (pairs(r, c) + w * sums[l](r, c)) / hood_.volume[i];
+    }
+  }
 }
 
 std::int64_t ContinuumKinematicsPeridynamics::bytes() const {

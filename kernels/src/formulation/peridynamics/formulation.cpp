@@ -1,6 +1,7 @@
 #include "formulation/peridynamics/formulation.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/instruction_set.hpp"
@@ -347,13 +348,6 @@ Mat<3> Peridynamic::fitted_gradient(const Body& body, std::int64_t i) const {
   return h;
 }
 
-// The stress that a plane condition adds: sigma_33 of plane strain.
-Mat<3> Peridynamic::stress_with_plane(const Body& body, std::int64_t i, int worker) const {
-  Mat<3> p = point_stress(body, i, worker);
-  if (body.kinematics == CLEAVE_PLANE_STRAIN) p(2, 2) = elastic(i).nu * (p(0, 0) + p(1, 1));
-  return p;
-}
-
 void Peridynamic::observe(Body& body, std::string_view field) {
   const bool wants_stress = is_stress(field) && !stress_observed_;
   const bool wants_gradient = (is_stress(field) || is_deformation(field)) && !gradient_observed_;
@@ -362,13 +356,20 @@ void Peridynamic::observe(Body& body, std::string_view field) {
   ThreadTeam& team = team_ == nullptr ? alone : *team_;
   constexpr std::int64_t kSmall = 32;  // points: a stress may be dear
   team.for_blocks((hood_.points + kSmall - 1) / kSmall, [&](std::int64_t block, int worker) {
-    for (std::int64_t i = block * kSmall; i < std::min(hood_.points, (block + 1) * kSmall); ++i) {
-      if (wants_gradient) {
-        const Mat<3> h = fitted_gradient(body, i);
-        store_tensor(h, body.point.h, i);
-        body.point.ratio[i] = determinant(plus_identity(h));
-      }
-      if (wants_stress) store_tensor(stress_with_plane(body, i, worker), body.point.p, i);
+    const std::int64_t first = block * kSmall, last = std::min(hood_.points, first + kSmall);
+    for (std::int64_t i = first; wants_gradient && i < last; ++i) {
+      const Mat<3> h = fitted_gradient(body, i);
+      store_tensor(h, body.point.h, i);
+      body.point.ratio[i] = determinant(plus_identity(h));
+    }
+    if (!wants_stress) return;
+    std::array<Mat<3>, kSmall> stress;
+    point_stresses(body, first, last, worker, stress.data());
+    for (std::int64_t i = first; i < last; ++i) {
+      Mat<3>& p = stress[static_cast<std::size_t>(i - first)];
+      // What the plane condition adds: sigma_33.
+      if (body.kinematics == CLEAVE_PLANE_STRAIN) p(2, 2) = elastic(i).nu * (p(0, 0) + p(1, 1));
+      store_tensor(p, body.point.p, i);
     }
   });
   gradient_observed_ = gradient_observed_ || wants_gradient;

@@ -65,6 +65,11 @@ class Peridynamic : public Formulation {
   // P of the own interactions of a point, D x D components; what follows from a plane condition is added
   // by the caller.                                                                    [PD stress]
   virtual Mat<3> point_stress(const Body& body, std::int64_t i, int worker) const = 0;
+  // The same for points first to last, where several at a time are faster.
+  virtual void point_stresses(const Body& body, std::int64_t first, std::int64_t last, int worker,
+                              Mat<3>* stress) const {
+    for (std::int64_t i = first; i < last; ++i) stress[i - first] = point_stress(body, i, worker);
+  }
 
   PairArrays pair_arrays(Body& body) const;
   const PairKernels& kernels() const;
@@ -111,7 +116,6 @@ class Peridynamic : public Formulation {
   void release(Body& body, const Clock& clock, ThreadTeam& team, double sign);
   void record_events(Body& body, const Clock& clock);
   Mat<3> fitted_gradient(const Body& body, std::int64_t i) const;
-  Mat<3> stress_with_plane(const Body& body, std::int64_t i, int worker) const;
 
   double stable_step_ = 0;
   double rate_ = 0;                    // largest_rate
