@@ -51,6 +51,8 @@ TEST(Life, CallsOutOfOrderAreRefusedAndNameTheRemedy) {
       {"cleave_body_prescribe",
        [&] { return cleave_body_prescribe(model, 0, 1, &zero, &x, &exact); }},
       {"cleave_body_exempt", [&] { return cleave_body_exempt(model, 0, 1, &zero); }},
+      {"cleave_body_region",
+       [&] { return cleave_body_region(model, 0, 1, &zero, 1, 1, &real, 0, 0); }},
       {"cleave_body_volumes", [&] { return cleave_body_volumes(model, 0, 1, &real); }},
       {"cleave_model_setup", [&] { return cleave_model_setup(model); }}};
   const std::vector<Call> set_up = {

@@ -353,6 +353,10 @@ contains
     call refused(cleave_body_prescribe(model, body, [1], [-huge(1)], [CLEAVE_MOTION_EXACT]), &
         CLEAVE_BAD_ARGUMENT, '')
     call refused(cleave_body_exempt(model, body, [9]), CLEAVE_BAD_RANGE, '')
+    call refused(cleave_body_region(model, body, [9], CLEAVE_MATERIAL_svk, [1.0_c_double]), &
+        CLEAVE_BAD_RANGE, 'the region')
+    call refused(cleave_body_region(model, body, [1], CLEAVE_MATERIAL_svk, [1.0_c_double], Gf=1.0_c_double), &
+        CLEAVE_UNSUPPORTED, 'one material in a body')
     call refused(cleave_body_volumes(model, body, [1.0_c_double]), CLEAVE_BAD_ARGUMENT, 'count is 1')
     call refused(cleave_model_setup(model), CLEAVE_MISSING_PARAMETER, 'plate')
     call ok(cleave_body_set_real(model, body, 'material', 'rho', 1190.0_c_double))

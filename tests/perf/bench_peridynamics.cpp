@@ -18,7 +18,8 @@ using cleave::perf::check;
 
 class Plate {
  public:
-  Plate(std::int32_t formulation, std::array<int, 3> cells, const char* stencil, int threads) {
+  Plate(std::int32_t formulation, std::array<int, 3> cells, const char* stencil, int threads,
+        const char* weights = "paper") {
     check(cleave_model_create(CLEAVE_ABI_VERSION, &model_));
     check(cleave_model_set_threads(model_, threads));
     constexpr double kSpacing = 1.125;
@@ -45,6 +46,8 @@ class Plate {
     check(cleave_body_set_choice(model_, 0, "peridynamics", "modulus", "shear"));
     check(cleave_body_set_real(model_, 0, "peridynamics", "horizon", 3.015 * kSpacing));
     check(cleave_body_set_choice(model_, 0, "peridynamics", "stencil", stencil));
+    if (formulation == CLEAVE_FORMULATION_cpd)
+      check(cleave_body_set_choice(model_, 0, "cpd", "weights", weights));
     check(cleave_body_set_real(model_, 0, "fracture", "critical_strain", 0.1));
     check(cleave_model_setup(model_));
     std::vector<double> v(X.size());
@@ -66,6 +69,11 @@ class Plate {
     check(cleave_model_advance(model_, 0.5 * dt_, 0.5 * dt_ * steps_));
     check(cleave_model_update(model_));
   }
+  void stress() {
+    stress_.resize(9 * static_cast<std::size_t>(points_));
+    check(cleave_field_get_real(model_, 0, "cauchy_stress", 0, static_cast<std::int64_t>(points_),
+                                stress_.data()));
+  }
   double points() const { return points_; }
   double triples() const { return triples_; }
 
@@ -73,11 +81,25 @@ class Plate {
   cleave_model* model_ = nullptr;
   double dt_ = 0, points_ = 0, triples_ = 0;
   int steps_ = 0;
+  std::vector<double> stress_;
 };
 
+void stress(benchmark::State& state, const char* stencil) {
+  Plate plate(CLEAVE_FORMULATION_cpd, {16, 16, 8}, stencil, 1);
+  for (auto _ : state) {
+    state.PauseTiming();
+    plate.step();
+    state.ResumeTiming();
+    plate.stress();
+  }
+  state.counters["us/point"] =
+      benchmark::Counter(plate.points() * static_cast<double>(state.iterations()) / 1e6,
+                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
 void run(benchmark::State& state, std::int32_t formulation, std::array<int, 3> cells,
-         const char* stencil, int threads = 1) {
-  Plate plate(formulation, cells, stencil, threads);
+         const char* stencil, int threads = 1, const char* weights = "paper") {
+  Plate plate(formulation, cells, stencil, threads, weights);
   plate.step();
   for (auto _ : state) plate.step();
   const auto rate = [&](double amount) {
@@ -96,6 +118,14 @@ constexpr std::array<int, 3> kSmall = {16, 16, 8}, kKalthoff = {88, 177, 8};
 PLATE(small_bond_pd, bond_pd, kSmall, "lattice");
 PLATE(small_lps, lps, kSmall, "lattice");
 PLATE(small_cpd, cpd, kSmall, "lattice");
+BENCHMARK_CAPTURE(run, small_cpd_conservative, CLEAVE_FORMULATION_cpd, kSmall, "lattice", 1,
+                  "conservative")
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(run, small_cpd_conservative_cloud, CLEAVE_FORMULATION_cpd, kSmall, "never", 1,
+                  "conservative")
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(stress, small_lattice, "lattice")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(stress, small_cloud, "never")->Unit(benchmark::kMillisecond);
 PLATE(small_cpd_cloud, cpd, kSmall, "never");
 PLATE(Kalthoff_bond_pd, bond_pd, kKalthoff, "lattice");
 PLATE(Kalthoff_lps, lps, kKalthoff, "lattice");

@@ -79,12 +79,30 @@ void add_body(const Deck& deck, const DeckGroup& group, const BodyGeometry& geom
   at_place(deck, material, [&] { set_parameters(material, "material", body, model); });
 }
 
+// Another material for the particles of a &region.
+void add_region(const Deck& deck, const DeckGroup& group, const Sets& sets, Model& model) {
+  const DeckGroup& material = named_group(deck, {"material"}, group.text("material"));
+  const std::string& law = material.text("law");
+  std::vector<double> properties;
+  for (const cleave_parameter& parameter : table_parameters(law))
+    properties.push_back(material.real(parameter.name));
+  for (const Selection& selection : sets.select(group)) {
+    at_place(deck, group, [&] {
+      check(cleave_body_region(model.handle(), selection.body, std::ssize(selection.particles),
+                               selection.particles.data(), value_of(CLEAVE_TABLE_MATERIAL, law),
+                               std::ssize(properties), properties.data(),
+                               group.real("critical_strain"), group.real("Gf")));
+    });
+  }
+}
+
 }  // namespace
 
 void add_bodies(const Deck& deck, const std::vector<BodyGeometry>& bodies, const Sets& sets,
                 Model& model) {
   const auto groups = deck.all("body");
   for (std::size_t i = 0; i < groups.size(); ++i) add_body(deck, *groups[i], bodies[i], model);
+  for (const DeckGroup* region : deck.all("region")) add_region(deck, *region, sets, model);
   for (const cleave_table_entry& option : table_entries(CLEAVE_TABLE_GROUP)) {
     for (const DeckGroup* group : deck.all(option.name)) {
       for (const Index body : sets.bodies(*group)) {

@@ -145,7 +145,7 @@ BodyGeometry read_points(const Deck& deck, const DeckGroup& points, int dimensio
     if (!(body.volumes[row] > 0)) {
       deck.fail(points, "file",
                 csv.place(row) + ": the volume of a point is " + number(csv.rows[row].back()) +
-                    "; allowed: > 0");
+                    "; allowed: > 0; leave the point out");
     }
   }
   make_cloud(body);

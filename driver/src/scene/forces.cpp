@@ -107,7 +107,10 @@ Forces::Dead Forces::dead_load(const std::string& kind, const BodyGeometry& body
   } else {
     dead.particle = selection.particles;
     dead.weight = gathered(model.reals(selection.body, "mass"), selection.particles);
-    if (kind == "body_force") {
+    if (kind == "body_force" && model.find_field(selection.body, "region")) {
+      // Materials of several densities.
+      dead.weight = gathered(model.reals(selection.body, "volume"), selection.particles);
+    } else if (kind == "body_force") {
       const double density = model.property(selection.body, "rho");
       for (double& weight : dead.weight) weight /= density;
     }

@@ -143,6 +143,26 @@ recursive subroutine clbvol(mod, ibody, n, volume, ierr)
   ierr = status
 end subroutine clbvol
 
+! Another material for particles; STRAIN, GF: 0 for what group fracture says.
+recursive subroutine clbreg(mod, ibody, n, npart, mat, nprop, prop, strain, gf, ierr)
+  use, intrinsic :: iso_c_binding, only: c_int32_t, c_double
+  use cleave77_support, only: model_of, at_least
+  use cleave77_choice, only: choice
+  use cleave, only: cleave_model, cleave_body_region, CLEAVE_OK
+  implicit none
+  integer, intent(in) :: mod, ibody, n, npart(*), mat, nprop
+  real(c_double), intent(in) :: prop(*), strain, gf
+  integer, intent(out) :: ierr
+  type(cleave_model) :: model
+  integer(c_int32_t) :: status
+  call model_of('CLBREG', mod, model, status)
+  if (status == CLEAVE_OK) status = at_least('CLBREG', 'N', n, 0)
+  if (status == CLEAVE_OK) status = at_least('CLBREG', 'NPROP', nprop, 0)
+  if (status == CLEAVE_OK) status = cleave_body_region(model, ibody, npart(:n), choice(mat), &
+      prop(:nprop), strain, gf)
+  ierr = status
+end subroutine clbreg
+
 ! Breaks bonds npair(2,n) before the first step: pre-cracks.
 recursive subroutine clbcrk(mod, ibody, n, npair, ierr)
   use, intrinsic :: iso_c_binding, only: c_int32_t

@@ -20,6 +20,7 @@ module cleave_c_model
   public :: cleave_body_prescribe
   public :: cleave_body_exempt
   public :: cleave_body_volumes
+  public :: cleave_body_region
   public :: cleave_model_setup
   public :: cleave_body_precrack
   public :: cleave_model_stable_step
@@ -166,6 +167,19 @@ module cleave_c_model
       real(c_double), intent(in) :: volume(*)
       integer(c_int32_t) :: status
     end function cleave_body_volumes
+
+    function cleave_body_region(model, body, count, particle, material, property_count, properties, &
+        critical_strain, Gf) bind(C) result(status)
+      import :: c_ptr, c_int64_t, c_int32_t, c_double
+      implicit none
+      type(c_ptr), value :: model
+      integer(c_int64_t), value :: body, count, property_count
+      integer(c_int64_t), intent(in) :: particle(*)
+      integer(c_int32_t), value :: material
+      real(c_double), intent(in) :: properties(*)
+      real(c_double), value :: critical_strain, Gf
+      integer(c_int32_t) :: status
+    end function cleave_body_region
 
     function cleave_model_setup(model) bind(C) result(status)
       import :: c_ptr, c_int32_t

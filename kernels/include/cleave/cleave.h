@@ -409,6 +409,16 @@ CLEAVE_API int32_t cleave_body_exempt(cleave_model* model, int64_t body, int64_t
 CLEAVE_API int32_t cleave_body_volumes(cleave_model* model, int64_t body, int64_t count,
                                        const double* volume);
 
+/* Another material for particles of a body; before set-up, for formulations bond_pd, cpd and lps. What bonds
+ * between two materials do says group peridynamics. Where regions overlap the later one counts.
+ * [in] particle (n)     [in] properties (property_count)   as cleave_material_stress
+ * [in] critical_strain  of bonds in the region [1], or Gf, their fracture energy [J m-2]: one of them > 0;
+ *                       both 0: what group fracture says, with the constants of this material */
+CLEAVE_API int32_t cleave_body_region(cleave_model* model, int64_t body, int64_t count,
+                                      const int64_t* particle, int32_t material,
+                                      int64_t property_count, const double* properties,
+                                      double critical_strain, double Gf);
+
 /* Checks everything and builds bonds, masses and fields.  Errors name the body and the parameter.
  */
 CLEAVE_API int32_t cleave_model_setup(cleave_model* model);

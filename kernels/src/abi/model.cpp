@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "abi/checks.hpp"
+#include "abi/material_checks.hpp"
 #include "core/instruction_set.hpp"
 #include "model/resident.hpp"
 #include "solver/relaxation.hpp"
@@ -214,6 +214,34 @@ int32_t cleave_body_volumes(cleave_model* model, int64_t body, int64_t count,
   });
 }
 
+int32_t cleave_body_region(cleave_model* model, int64_t body, int64_t count,
+                           const int64_t* particle, int32_t material, int64_t property_count,
+                           const double* properties, double critical_strain, double Gf) {
+  return guarded("cleave_body_region", [&] {
+    checked(model).require(Phase::building, kBeforeSetup);
+    Body& b = model->body(body);
+    const auto list = span_of(particle, count, "particle");
+    for (const int64_t i : list) b.check_particle(i, CLEAVE_BAD_RANGE, "the region");
+    if (!b.formulation->takes_regions()) {
+      throw Error(CLEAVE_UNSUPPORTED,
+                  text(b.label(), ": formulation ", b.formulation->name(),
+                       " has one material in a body; use bond_pd, cpd or lps, or two bodies"));
+    }
+    if (!(critical_strain >= 0) || !(Gf >= 0) || (critical_strain > 0 && Gf > 0)) {
+      throw Error(
+          CLEAVE_BAD_ARGUMENT,
+          text("region of ", b.label(), ": critical_strain is ", critical_strain, ", Gf is ", Gf,
+               "; allowed: one of them > 0, or both 0 for what group fracture says"));
+    }
+    b.regions.push_back({&find_material(material),
+                         abi::make_checked(material, b.kinematics, property_count, properties),
+                         critical_strain, Gf});
+    b.region.resize(static_cast<std::size_t>(b.particles), 0);
+    for (const int64_t i : list)
+      b.region[static_cast<std::size_t>(i)] = static_cast<int32_t>(b.regions.size());
+  });
+}
+
 int32_t cleave_model_setup(cleave_model* model) {
   return guarded("cleave_model_setup", [&] {
     checked(model).require(Phase::building, "the model is set up already; make a new one");
@@ -249,8 +277,7 @@ int32_t cleave_model_is_stable(cleave_model* model, double dt, int32_t* stable) 
 int32_t cleave_body_wave_speed(cleave_model* model, int64_t body, double* speed) {
   return guarded("cleave_body_wave_speed", [&] {
     checked(model).require_set_up();
-    required(speed, "speed") =
-        with_law(model->body(body).material, [](const auto& law) { return law.wave_speed(); });
+    required(speed, "speed") = model->body(body).wave_speed();
   });
 }
 

@@ -68,6 +68,13 @@ void Body::check_particle(std::int64_t i, cleave_status status, std::string_view
                    " does not exist; particles are ", number(0), " to ", number(particles - 1)));
 }
 
+double Body::wave_speed() const {
+  const auto speed = [](const auto& l) { return l.wave_speed(); };
+  double highest = with_law(material, speed);
+  for (const MaterialRegion& r : regions) highest = std::fmax(highest, with_law(r.material, speed));
+  return highest;
+}
+
 ParameterSet& Body::group(std::string_view group_name) {
   if (group_name == "material") return material_parameters;
   std::string known = "material";

@@ -34,6 +34,13 @@ struct PointArrays {
   double* ledger;
 };
 
+// Particles of a body that have another material than it.
+struct MaterialRegion {
+  const MaterialEntry* law;
+  Material material;
+  double critical_strain, Gf;  // of its bonds; both 0: as group fracture says
+};
+
 struct Body {
   // index_base: what messages count from.
   Body(const cleave_body_spec& spec, int index, int index_base = 0);
@@ -47,6 +54,16 @@ struct Body {
   std::string particle_label(std::int64_t i) const;
   int dimension() const { return dimension_of(kinematics); }
   bool points_are_particles() const { return points_are_particles_; }
+  // The body's material, or that of the region the particle is in.
+  const Material& material_of(std::int64_t particle) const {
+    const std::int32_t k = region_of(particle);
+    return k == 0 ? material : regions[static_cast<std::size_t>(k) - 1].material;
+  }
+  // 0: the body's own material, k: regions[k-1].
+  std::int32_t region_of(std::int64_t particle) const {
+    return region.empty() ? 0 : region[static_cast<std::size_t>(particle)];
+  }
+  double wave_speed() const;  // the highest of its materials
   ParameterSet& group(std::string_view group_name);
   const ParameterSet& group(std::string_view group_name) const;
 
@@ -60,7 +77,9 @@ struct Body {
   std::vector<std::int64_t> given_simplices;  // (simplex_nodes,m) until set-up
   std::vector<double> given_volumes;          // (n) until set-up; empty: from the simplices
   std::vector<char> exempt;                   // (n) 1: in a zone without fracture; empty: none
-  bool by_rows = false;                       // step in the order of operations of the array calls
+  std::vector<MaterialRegion> regions;
+  std::vector<std::int32_t> region;  // (n), see region_of; empty: no regions
+  bool by_rows = false;              // step in the order of operations of the array calls
 
   const MaterialEntry* law;
   ParameterSet material_parameters;

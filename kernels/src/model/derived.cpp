@@ -15,7 +15,7 @@ Mat<3> deformation_gradient(const Body& body, std::int64_t q) {
   Mat<3> f = plus_identity(load_tensor<3>(body.point.h, q));
   if (body.dimension() == 2) {
     const Mat<2> plane = load_tensor<2>(body.point.h, q);
-    f(2, 2) = with_law(body.material, [&](const auto& law) {
+    f(2, 2) = with_law(body.material_of(q), [&](const auto& law) {
       return law.thickness_stretch(plane, body.history.at(q));
     });
   }

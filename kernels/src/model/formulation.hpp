@@ -40,6 +40,8 @@ class Formulation {
   virtual std::int64_t integration_points(const Body&) const { return kPointsAreParticles; }
   // Whether volumes of particles may be given instead of simplices.
   virtual bool takes_volumes() const { return false; }
+  // Whether particles may have another material than the body.
+  virtual bool takes_regions() const { return false; }
   // Checks the options, allocates the formulation's fields and fills those of lifetime setup.
   virtual void setup(Body& body, ThreadTeam& team) = 0;
   // All caches from setup and state fields, and whatever the formulation keeps outside fields.

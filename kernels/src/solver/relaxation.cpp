@@ -31,8 +31,7 @@ double largest_jump(const Body& body, const std::vector<double>& from) {
 // A wave passes at most the shortest length of the body in a step.
 std::int64_t ramp_steps(const Body& body, double jump) {
   if (!(jump > 0)) return 0;
-  const double speed = with_law(body.material, [](const auto& law) { return law.wave_speed(); });
-  const double length = speed * body.formulation->stable_step(body);
+  const double length = body.wave_speed() * body.formulation->stable_step(body);
   return static_cast<std::int64_t>(std::ceil(std::fmin(1e6, jump / (kFrontStrain * length))));
 }
 

@@ -38,7 +38,14 @@ BLOCK = """
 SHEET = BLOCK.replace("size=11,6,4", "size=21,12,0").replace("'cubic'", "'square'").replace("'3d'", "'plane_strain'")
 DECKS = {
     "block": ("t_end=25", BLOCK),
-    "block-cloud": ("t_end=25", BLOCK + "&cpd weights='conservative' /\n"),
+    "block-weighed": ("t_end=25", BLOCK + "&cpd weights='conservative' /\n"),
+    "block-cloud": ("t_end=25", BLOCK.replace("horizon=2.4", "horizon=2.4 stencil='never'")
+                    + "&cpd weights='conservative' /\n"),
+    "sheet-regions": ("t_end=40", SHEET.replace("'cpd'", "'bond_pd'").replace("nu=0.3", "nu=0.25") + """
+&material name='stiff' law='linear_elastic' E=3 nu=0.25 rho=2 /
+&zone name='layer' lower=-1,5 upper=99,9 /
+&region set='layer' material='stiff' critical_strain=0.01 /
+"""),
     "sheet": ("t_end=40", SHEET),
     "sheet-state": ("t_end=40", SHEET.replace("'cpd'", "'lps'")),
     "plate": ("t_end=40", PLATE + "&checkpoint every_steps=60 /\n"),

@@ -1,8 +1,11 @@
 """Runs of the program that only a process can show: signals, exit codes, what is printed."""
 
 import filecmp
+import itertools
+import math
 import os
 import pathlib
+import re
 import shutil
 import signal
 import subprocess
@@ -71,6 +74,36 @@ def told(root):
     check([p.name for p in (root / "checked").iterdir()] == ["case.nml"], "a check writes no file")
 
 
+def told_of_interactions(root):
+    """What a check says of peridynamics: ordered sets of two, three and four points, memory and time."""
+    write_deck(root, "t_end=50", """
+&lattice type='cubic' spacing=1 size=4,3,3 points='centres' /
+&body kinematics='3d' material='unit' formulation='cpd' /
+&material name='unit' law='linear_elastic' E=1 nu=0.3 rho=1 /
+&peridynamics horizon=1.8 /
+""")
+    points = list(itertools.product(range(4), range(3), range(3)))
+    near = [[sum((a - b) ** 2 for a, b in zip(p, q)) < 3.25 for q in points] for p in points]
+    numbers = {2: 0, 4: 0}
+    for size in numbers:
+        for members in itertools.combinations(range(len(points)), size):
+            if not all(near[a][b] for a, b in itertools.combinations(members, 2)):
+                continue
+            a, b, c = ([x - y for x, y in zip(points[m], points[members[0]])]
+                       for m in (members + members)[1:4])
+            flat = a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) \
+                + a[2] * (b[0] * c[1] - b[1] * c[0]) == 0
+            if size == 2 or not flat:
+                numbers[size] += math.factorial(size)
+    done = cleave(root, "check", "case.nml")
+    check(done.returncode == 0, "check of peridynamics", done.stderr)
+    check(f"interactions: {numbers[2]} one-neighbour, 0 two-neighbour, {numbers[4]} three-neighbour" in done.stdout,
+          f"interactions are {numbers}", done.stdout)
+    check(re.search(r"^memory [0-9.]+ [kM]B$", done.stdout, re.M), "memory", done.stdout)
+    check(re.search(r"^estimated [0-9.e-]+ hours \(.+\) on 1 thread, without output$", done.stdout, re.M),
+          "hours", done.stdout)
+
+
 def more_threads_than_cores(root):
     """Allowed and said, in a run and a check; not with --quiet, and not where there are cores enough."""
     if not hasattr(os, "sched_setaffinity"):
@@ -92,5 +125,6 @@ def more_threads_than_cores(root):
 
 
 with tempfile.TemporaryDirectory() as temporary:
-    for test in (stopped_and_continued, moved_directory, failed, told, more_threads_than_cores):
+    for test in (stopped_and_continued, moved_directory, failed, told, told_of_interactions,
+                 more_threads_than_cores):
         test(pathlib.Path(temporary) / test.__name__)

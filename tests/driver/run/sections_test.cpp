@@ -1,4 +1,5 @@
-// Section resultants: the force is the reaction, the moment that of beam theory.
+// Section resultants: the force is the reaction, the moment that of beam theory. For peridynamic bodies: what
+// a load-displacement curve is made of.
 #include <cmath>
 
 #include "support.hpp"
@@ -76,6 +77,68 @@ TEST_F(SectionRun, HasAllComponentsInThreeDimensions) {
   }
 }
 
+// A plate of peridynamic points between two grips of a horizon's width.
+std::string gripped(const std::string& method, const std::string& more) {
+  return "&lattice type='square' spacing=1 size=36,16,0 points='centres' /\n"
+         "&body kinematics='plane_stress' material='unit' formulation='" +
+         method +
+         "' /\n&material name='unit' law='linear_elastic' E=1 nu=0.333333333333333333 rho=1 /\n"
+         "&peridynamics horizon=3.015 /\n" +
+         (method == "cpd" ? "&cpd weights='conservative' /\n" : "") +
+         "&zone name='left' upper=3.1,99 /\n&zone name='right' lower=32.9,-1 /\n"
+         "&section name='middle' point=18.2,0,0 normal=1,0,0 /\n"
+         "&section name='grip' set='right' /\n"
+         "&load name='foot' kind='displacement' set='left' directions='x' /\n"
+         "&load name='head' kind='displacement' set='right' directions='x' value=0.03 "
+         "curve='linear' ramp=8 /\n" +
+         more;
+}
+
+// E A eps is met up to the lattice and the points at the two long sides, 6 of 16 rows: softer with bonds, stiffer
+// with weights by the number of neighbours.
+TEST_F(SectionRun, PeridynamicReactionIsThatOfTheBar) {
+  for (const std::string method : {"bond_pd", "cpd", "lps"}) {
+    run("mode='static' t_end=8",
+        gripped(method,
+                "&static increments=2 method='relaxation' tolerance=1e-7 /\n"
+                "&probe name='strain' field='displacement_gradient' point=18,8 /\n"),
+        method);
+    const auto h = read_history(path(method + "/case.history.csv"));
+    const double force = h.at("reaction_head_x").back();
+    EXPECT_NEAR(h.at("reaction_foot_x").back() / force, -1, 1e-5) << method;
+    EXPECT_NEAR(h.at("section_middle_force_x").back() / force, 1, 1e-5) << method;
+    EXPECT_NEAR(h.at("section_grip_force_x").back() / force, -1, 1e-12) << method;
+    EXPECT_NEAR(h.at("section_grip_force_y").back() / force, 0, 1e-5) << method;
+    EXPECT_NEAR(h.at("reaction_head_x")[1] / force, 0.5, 1e-3) << method;
+    // measured 1.007, 1.047, 1.094
+    EXPECT_NEAR(force / (16 * h.at("strain_xx").back()), 1.05, 0.07) << method;
+  }
+}
+
+// The reactions are what moves the body: m dv = (R_n + R_n+1) dt/2 of every step.
+TEST_F(SectionRun, PeridynamicReactionsMoveTheBody) {
+  for (const std::string method : {"bond_pd", "cpd", "lps"}) {
+    run("t_end=20",
+        gripped(method, "&history every_steps=1 /\n&initial set='right' velocity=0.00375,0,0 /\n"),
+        method);
+    const auto h = read_history(path(method + "/case.history.csv"));
+    const auto& p = h.at("momentum_x");
+    const auto& t = h.at("time");
+    ASSERT_GT(p.size(), 20u);
+    double largest = 0, off = 0;
+    for (std::size_t n = 2; n < p.size(); ++n) {
+      const auto total = [&](std::size_t k) {
+        return h.at("reaction_head_x")[k] + h.at("reaction_foot_x")[k];
+      };
+      const double impulse = 0.5 * (t[n] - t[n - 1]) * (total(n) + total(n - 1));
+      largest = std::max(largest, std::fabs(impulse));
+      off = std::max(off, std::fabs(p[n] - p[n - 1] - impulse));
+    }
+    EXPECT_GT(largest, 1e-4);
+    EXPECT_LT(off, 1e-11 * largest) << method;  // measured 2e-14
+  }
+}
+
 TEST_F(SectionRun, RefusesPlanesThatCutNothing) {
   const auto refused = [&](const std::string& groups) {
     return message_of<DeckError>(
@@ -88,6 +151,9 @@ TEST_F(SectionRun, RefusesPlanesThatCutNothing) {
   EXPECT_TRUE(has(refused("&body name='other' kinematics='plane_stress' material='unit' /\n"
                           "&section name='s' point=0,1.5,0 /\n"),
                   "name the one that is cut"));
+  EXPECT_TRUE(has(refused("&section name='s' set='ymx' /\n"), "no particle is in a set 'ymx'"));
+  EXPECT_TRUE(has(refused("&section name='s' set='all' /\n"),
+                  "which leaves nothing to act on it; name a part"));
 }
 
 }  // namespace

@@ -2,18 +2,33 @@
 
 namespace cleave::bond_pd {
 
+using peridynamics::Interface;
 using peridynamics::KeptModulus;
 using peridynamics::PairArrays;
 using peridynamics::PointEnergy;
 
 void BondPeridynamics::prepare(Body& body) {
   const ParameterSet& options = body.group("peridynamics");
-  constant_ = peridynamics::bond_constant(body, elastic_, dimension_, hood_.horizon, hood_.section,
-                                          static_cast<KeptModulus>(options.choice("modulus")));
+  interface_ = static_cast<Interface>(options.choice("interface"));
+  constants_.clear();
+  for (std::size_t k = 0; k < materials_.size(); ++k)
+    constants_.push_back(peridynamics::bond_constant(
+        body, k, materials_[k], reach(), static_cast<KeptModulus>(options.choice("modulus"))));
+  const bool several = constants_.size() > 1;
+  share_.assign(several ? left_.size() : 0, 0.0);
   for (std::size_t i = 0; i < left_.size(); ++i) {
-    left_[i] = constant_ * hood_.volume[i];
+    left_[i] = several ? hood_.volume[i] : constants_[0] * hood_.volume[i];
     now_[4 * i + 3] = hood_.volume[i];
+    if (!several) continue;
+    const double c = constants_[static_cast<std::size_t>(material_of_[i])];
+    share_[i] = interface_ == Interface::series ? 0.5 / c : 0.5 * c;
   }
+}
+
+double BondPeridynamics::constant(std::int64_t i, std::int64_t p) const {
+  if (share_.empty()) return constants_[0];
+  const double both = share_[static_cast<std::size_t>(i)] + share_[static_cast<std::size_t>(p)];
+  return interface_ == Interface::series ? 1 / both : both;
 }
 
 double BondPeridynamics::largest_rate(const Body& body) const {
@@ -21,9 +36,13 @@ double BondPeridynamics::largest_rate(const Body& body) const {
 }
 
 void BondPeridynamics::act(Body& body, ThreadTeam& team) {
-  const PairArrays arrays = pair_arrays(body);
+  PairArrays arrays = pair_arrays(body);
+  arrays.alpha = share_.data();
+  const auto force = share_.empty()                    ? kernels().product
+                     : interface_ == Interface::series ? kernels().series
+                                                       : kernels().mean;
   for_blocks(team, hood_.points, [&](std::int64_t, std::int64_t first, std::int64_t last) {
-    kernels().product(arrays, first, last);
+    force(arrays, first, last);
   });
 }
 
@@ -43,7 +62,7 @@ Mat<3> BondPeridynamics::point_stress(const Body& body, std::int64_t i, int) con
   for_carrying(i, [&](std::int32_t p, std::int32_t) {
     const peridynamics::BondMotion m = peridynamics::bond_motion(hood_, body, i, p);
     Vec<3> pull = m.direction;
-    for (int k = 0; k < 3; ++k) pull[k] *= 0.5 * constant_ * hood_.volume[p] * m.stretch;
+    for (int k = 0; k < 3; ++k) pull[k] *= 0.5 * constant(i, p) * hood_.volume[p] * m.stretch;
     add_dyad(stress, pull, difference<3>(hood_.X, i, p));
   });
   return stress;

@@ -18,12 +18,16 @@ class BondPeridynamics final : public peridynamics::Peridynamic {
                                          int worker) const override;
   Mat<3> point_stress(const Body& body, std::int64_t i, int worker) const override;
 
+  // c of a bond [N m-6].                                                           [PD bond, interface]
+  double constant(std::int64_t i, std::int64_t p) const;
   // Force of a bond over its stretch [N].
   double weight(std::int64_t i, std::int64_t p) const {
-    return constant_ * hood_.volume[i] * hood_.volume[p];
+    return constant(i, p) * hood_.volume[i] * hood_.volume[p];
   }
 
-  double constant_ = 0;  // c [N m-6]
+  std::vector<double> constants_;  // of each material
+  peridynamics::Interface interface_ = peridynamics::Interface::series;
+  std::vector<double> share_;  // (n) several materials only: 1/(2c), or c/2
 };
 
 }  // namespace cleave::bond_pd

@@ -22,49 +22,70 @@ double ball_volume(int dimension, double horizon, double section) {
 }  // namespace
 
 void ContinuumKinematicsPeridynamics::find_constants(const Body& body) {
-  const double d = hood_.horizon, difference = elastic_.lambda - elastic_.mu;
-  if (dimension_ == 1) {
-    constants_ = {2 * elastic_.E / (hood_.section * d * d), 0, 0};
-  } else if (dimension_ == 2) {
-    constants_ = {24 * elastic_.mu / (kPi * std::pow(d, 3)),
-                  27 * difference / (8 * kPi * std::pow(d, 6)), 0};
-  } else {
-    constants_ = {30 * elastic_.mu / (kPi * std::pow(d, 4)), 0,
-                  32 * difference / (std::pow(kPi, 4) * std::pow(d, 12))};
-  }
-  // What rounding of nu = 1/4 leaves.
-  if (std::fabs(constants_.two) < kZero * constants_.one / std::pow(d, 3)) constants_.two = 0;
-  if (std::fabs(constants_.three) < kZero * constants_.one / std::pow(d, 8)) constants_.three = 0;
   const ParameterSet& options = body.group("cpd");
-  const auto given = [&options](const char* name, double& constant) {
-    if (!std::isnan(options.real(name))) constant = options.real(name);
-  };
-  given("C1", constants_.one);
-  given("C2", constants_.two);
-  given("C3", constants_.three);
+  const double d = hood_.horizon;
+  constants_.clear();
+  for (const peridynamics::Elastic& e : materials_) {
+    const double difference = e.lambda - e.mu;
+    Constants c;
+    if (dimension_ == 1) {
+      c = {2 * e.E / (hood_.section * d * d), 0, 0};
+    } else if (dimension_ == 2) {
+      c = {24 * e.mu / (kPi * std::pow(d, 3)), 27 * difference / (8 * kPi * std::pow(d, 6)), 0};
+    } else {
+      c = {30 * e.mu / (kPi * std::pow(d, 4)), 0,
+           32 * difference / (std::pow(kPi, 4) * std::pow(d, 12))};
+    }
+    // What rounding of nu = 1/4 leaves.
+    if (std::fabs(c.two) < kZero * c.one / std::pow(d, 3)) c.two = 0;
+    if (std::fabs(c.three) < kZero * c.one / std::pow(d, 8)) c.three = 0;
+    const auto given = [&](const char* name, double& constant) {
+      if (std::isnan(options.real(name))) return;
+      if (materials_.size() > 1) {
+        throw Error(CLEAVE_UNSUPPORTED,
+                    text("group cpd of ", body.label(), " gives ", name,
+                         ", but there are several materials; leave it out, so that each has its "
+                         "own constants"));
+      }
+      constant = options.real(name);
+    };
+    given("C1", c.one);
+    given("C2", c.two);
+    given("C3", c.three);
+    constants_.push_back(c);
+  }
+  if (materials_.size() > 1 && !conservative_) {
+    throw Error(
+        CLEAVE_UNSUPPORTED,
+        text(body.label(),
+             " has several materials: the weights of the paper do not keep momentum where "
+             "they meet; set weights = 'conservative' in group cpd, or use bond_pd or lps"));
+  }
 }
 
-void ContinuumKinematicsPeridynamics::check_constants(const Body& body) const {
-  if (!(constants_.one > 0)) {
-    throw Error(CLEAVE_BAD_ARGUMENT, text("group cpd of ", body.label(), ": C1 is ", constants_.one,
+void ContinuumKinematicsPeridynamics::check_constants(const Body& body, std::size_t region) const {
+  const Constants& constants = constants_[region];
+  const peridynamics::Elastic& elastic = materials_[region];
+  if (!(constants.one > 0)) {
+    throw Error(CLEAVE_BAD_ARGUMENT, text("group cpd of ", body.label(), ": C1 is ", constants.one,
                                           "; allowed: > 0, or leave it out"));
   }
-  if ((dimension_ < 3 && constants_.three != 0) || (dimension_ < 2 && constants_.two != 0)) {
+  if ((dimension_ < 3 && constants.three != 0) || (dimension_ < 2 && constants.two != 0)) {
     throw Error(CLEAVE_UNSUPPORTED,
-                text("group cpd of ", body.label(), ": C2 = ", constants_.two, ", C3 = ",
-                     constants_.three, ", but in ", dimension_, " dimensions there are only ",
+                text("group cpd of ", body.label(), ": C2 = ", constants.two, ", C3 = ",
+                     constants.three, ", but in ", dimension_, " dimensions there are only ",
                      dimension_ == 1 ? "one-neighbour" : "one- and two-neighbour",
                      " interactions; leave it out"));
   }
-  const double least = std::fmin(constants_.two, constants_.three);
+  const double least = std::fmin(constants.two, constants.three);
   if (least >= 0 ||
       static_cast<Negative>(body.group("cpd").choice("negative_constants")) == Negative::allow)
     return;
-  const bool two = constants_.two < 0;
+  const bool two = constants.two < 0;
   throw Error(CLEAVE_UNSUPPORTED,
-              text(body.label(), ": nu = ", elastic_.nu, " makes ", two ? "C2 = " : "C3 = ", least,
-                   " negative (lambda = ", elastic_.lambda, ", mu = ", elastic_.mu, "), so that ",
-                   two ? "two" : "three",
+              text(peridynamics::material_label(body, region), ": nu = ", elastic.nu, " makes ",
+                   two ? "C2 = " : "C3 = ", least, " negative (lambda = ", elastic.lambda,
+                   ", mu = ", elastic.mu, "), so that ", two ? "two" : "three",
                    "-neighbour interactions take energy away and may destabilise; use nu >= ",
                    body.kinematics == CLEAVE_PLANE_STRESS ? "1/3" : "1/4",
                    ", formulation lps, or negative_constants = 'allow' in group cpd"));

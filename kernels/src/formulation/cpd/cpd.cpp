@@ -1,7 +1,9 @@
 #include "formulation/cpd/cpd.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 #include <span>
 
 #include "core/instruction_set.hpp"
@@ -50,7 +52,7 @@ void ContinuumKinematicsPeridynamics::prepare(Body& body) {
       chosen<peridynamics::Weights>(body, "weights") == peridynamics::Weights::conservative;
   signed_volume_ = chosen<ThreeNeighbour>(body, "three_nbr") == ThreeNeighbour::signed_volume;
   find_constants(body);
-  check_constants(body);
+  for (std::size_t k = 0; k < constants_.size(); ++k) check_constants(body, k);
   if (hood_form_ == HoodVolume::sphere) {
     const Lattice lattice = find_lattice(hood_);
     if (!lattice.found()) {
@@ -62,16 +64,22 @@ void ContinuumKinematicsPeridynamics::prepare(Body& body) {
     }
     full_count_ = static_cast<double>(full_neighbours(hood_, lattice.spacing));
   }
-  if (constants_.two != 0 || constants_.three != 0) numbers_ = hood_numbers(hood_);
+  if (any(&Constants::two) || any(&Constants::three)) numbers_ = hood_numbers(hood_);
   weigh(body);
   scratch_.clear();
   expect_workers(1);
-  if (constants_.three != 0) {
+  if (any(&Constants::three)) {
     sums_.assign(static_cast<std::size_t>(4 * hood_.points), 0.0);
     damaged_.reserve(left_.size());
-    const Lattice lattice = use_lattice_ && !conservative_ ? find_lattice(hood_) : Lattice{};
-    if (!lattice.found() || !lattice_.setup(hood_, lattice, signed_volume_)) cloud_.setup(hood_);
+    const Lattice lattice = use_lattice_ ? find_lattice(hood_) : Lattice{};
+    if (!lattice.found() || !lattice_.setup(hood_, lattice, signed_volume_, conservative_))
+      cloud_.setup(hood_);
   }
+}
+
+bool ContinuumKinematicsPeridynamics::any(double Constants::*constant) const {
+  return std::any_of(constants_.begin(), constants_.end(),
+                     [&](const Constants& c) { return c.*constant != 0; });
 }
 
 void ContinuumKinematicsPeridynamics::weigh(const Body& body) {
@@ -82,33 +90,37 @@ void ContinuumKinematicsPeridynamics::weigh(const Body& body) {
   const double factor = sets && chosen<Calibration>(body, "c3_calibration") == Calibration::energy
                             ? calibration(full)
                             : 1.0;
-  two_.assign(constants_.two != 0 ? left_.size() : 0, 0.0);
-  three_.assign(constants_.three != 0 ? left_.size() : 0, 0.0);
+  two_.assign(any(&Constants::two) ? left_.size() : 0, 0.0);
+  three_.assign(any(&Constants::three) ? left_.size() : 0, 0.0);
   interactions_[1] = interactions_[2] = 0;
   for (std::size_t i = 0; i < left_.size(); ++i) {
     const auto point = static_cast<std::int64_t>(i);
     const double volume = hood_volume(point), v = hood_.volume[i];
     const int bonds = hood_.count(point);
-    const double one = bonds > 0 ? constants_.one * v * volume / bonds : 0.0;
+    const double one = bonds > 0 ? constants(i).one * v * volume / bonds : 0.0;
     left_[i] = conservative_ ? 0.5 * one : one;
     now_[4 * i + 3] = conservative_ ? left_[i] : 1.0;
     if (!two_.empty() && numbers_[i].pairs > 0) {
-      two_[i] = factor * constants_.two * v * volume * volume / numbers_[i].pairs;
+      two_[i] = factor * constants(i).two * v * volume * volume / numbers_[i].pairs;
       interactions_[1] += 2 * numbers_[i].pairs;
     }
     if (!three_.empty() && numbers_[i].triples > 0) {
-      three_[i] = factor * constants_.three * v * std::pow(volume, 3) / numbers_[i].triples;
+      three_[i] = factor * constants(i).three * v * std::pow(volume, 3) / numbers_[i].triples;
       interactions_[2] += 6 * numbers_[i].triples;
     }
   }
 }
 
-// The row sums of [PD step]. Conservative weights are means of those of several points: the largest bounds
-// them.
+// The row sums of [PD step]. Conservative weights are means of those of the points of a set, which all are
+// neighbours of each: the largest of them bounds it.
 double ContinuumKinematicsPeridynamics::largest_rate(const Body& body) const {
-  double most_two = 0, most_three = 0;
-  for (const double w : two_) most_two = std::fmax(most_two, std::fabs(w));
-  for (const double w : three_) most_three = std::fmax(most_three, std::fabs(w));
+  const auto most = [&](const std::vector<double>& weights, std::int64_t i) {
+    double w = std::fabs(weights[static_cast<std::size_t>(i)]);
+    if (!conservative_) return w;
+    for (auto b = hood_.first(i); b < hood_.last(i); ++b)
+      w = std::fmax(w, std::fabs(weights[static_cast<std::size_t>(hood_.neighbour(b))]));
+    return w;
+  };
   double largest = 0;
   for (std::size_t i = 0; i < left_.size(); ++i) {
     const auto point = static_cast<std::int64_t>(i);
@@ -119,10 +131,8 @@ double ContinuumKinematicsPeridynamics::largest_rate(const Body& body) const {
           conservative_ ? left_[i] + left_[static_cast<std::size_t>(p)] : left_[i];
       sum += 2 * weight / hood_.length(point, p);
     }
-    if (!two_.empty())
-      sum += (conservative_ ? most_two : std::fabs(two_[i])) * numbers_[i].pair_rate;
-    if (!three_.empty())
-      sum += (conservative_ ? most_three : std::fabs(three_[i])) * numbers_[i].triple_rate;
+    if (!two_.empty()) sum += most(two_, point) * numbers_[i].pair_rate;
+    if (!three_.empty()) sum += most(three_, point) * numbers_[i].triple_rate;
     largest = std::fmax(largest, sum / body.point.mass[i]);
   }
   return largest;
@@ -202,8 +212,10 @@ void ContinuumKinematicsPeridynamics::add_triangles(Body& body, ThreadTeam& team
 // All as if every bond carried, then points with a broken bond by themselves; conservative weights know of
 // broken bonds.                                                                        [PD three, 13]
 void ContinuumKinematicsPeridynamics::add_tetrahedra(Body& body, ThreadTeam& team) {
-  if (lattice_.active()) {
-    lattice_.sum(body.point.u, team, sums_.data());
+  if (lattice_.active() && conservative_) {
+    lattice_.sum(body.point.u, three_.data(), team, sums_.data());
+  } else if (lattice_.active()) {
+    lattice_.sum(body.point.u, nullptr, team, sums_.data());
     damaged_.clear();
     for (std::int64_t i = 0; i < hood_.points; ++i)
       if (!damage_.whole(i)) damaged_.push_back(static_cast<std::int32_t>(i));
@@ -282,8 +294,7 @@ PointEnergy ContinuumKinematicsPeridynamics::point_energy(const Body& body, std:
   return sum;
 }
 
-Mat<3> ContinuumKinematicsPeridynamics::point_stress(const Body& body, std::int64_t i,
-                                                     int worker) const {
+Mat<3> ContinuumKinematicsPeridynamics::pairs_stress(const Body& body, std::int64_t i) const {
   const double bond = (conservative_ ? 2 : 1) * left_[static_cast<std::size_t>(i)];
   Mat<3> stress;
   for_carrying(i, [&](std::int32_t p, std::int32_t) {
@@ -304,6 +315,12 @@ Mat<3> ContinuumKinematicsPeridynamics::point_stress(const Body& body, std::int6
       add_dyad(stress, on_k, difference<3>(hood_.X, i, t.k));
     });
   }
+  return stress;
+}
+
+Mat<3> ContinuumKinematicsPeridynamics::point_stress(const Body& body, std::int64_t i,
+                                                     int worker) const {
+  Mat<3> stress = pairs_stress(body, i);
   if (!three_.empty()) {
     double sums[9] = {};
     if (const Star* star = carrying_star(body, i, worker))
@@ -315,6 +332,31 @@ Mat<3> ContinuumKinematicsPeridynamics::point_stress(const Body& body, std::int6
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 3; ++c) stress(r, c) /= hood_.volume[i];
   return stress;
+}
+
+void ContinuumKinematicsPeridynamics::point_stresses(const Body& body, std::int64_t first,
+                                                     std::int64_t last, int worker,
+                                                     Mat<3>* stress) const {
+  if (!lattice_.active()) {
+    Peridynamic::point_stresses(body, first, last, worker, stress);
+    return;
+  }
+  for (std::int64_t begin = first; begin < last; begin += 8) {
+    std::array<std::int32_t, 8> points{};
+    const auto count = static_cast<std::size_t>(std::min<std::int64_t>(8, last - begin));
+    std::iota(points.begin(), points.end(), static_cast<std::int32_t>(begin));
+    std::array<Mat<3>, 8> sums;
+    lattice_.stress_sums(hood_, damage_, std::span(points.data(), count), body.point.u, worker,
+                         sums.data());
+    for (std::size_t l = 0; l < count; ++l) {
+      const std::int64_t i = begin + static_cast<std::int64_t>(l);
+      const Mat<3> pairs = pairs_stress(body, i);
+      const double w = 0.25 * three_[static_cast<std::size_t>(i)];
+      for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 3; ++c)
+          stress[i - first](r, c) = (pairs(r, c) + w * sums[l](r, c)) / hood_.volume[i];
+    }
+  }
 }
 
 std::int64_t ContinuumKinematicsPeridynamics::bytes() const {

@@ -23,13 +23,24 @@ class ContinuumKinematicsPeridynamics final : public peridynamics::Peridynamic {
   void prepare(Body& body) override;
   double largest_rate(const Body& body) const override;
   void expect_workers(int workers) override;
+  void reconnect(std::int64_t i) override {
+    if (conservative_ && lattice_.active()) lattice_.connect(hood_, damage_, i);
+  }
   void act(Body& body, ThreadTeam& team) override;
   peridynamics::PointEnergy point_energy(const Body& body, std::int64_t i,
                                          int worker) const override;
   Mat<3> point_stress(const Body& body, std::int64_t i, int worker) const override;
+  void point_stresses(const Body& body, std::int64_t first, std::int64_t last, int worker,
+                      Mat<3>* stress) const override;
 
+  const Constants& constants(std::size_t i) const {
+    return constants_[static_cast<std::size_t>(material_of_[i])];
+  }
+  bool any(double Constants::*constant) const;  // not zero in some material
+  // Of one- and two-neighbour interactions, times the volume of the point.
+  Mat<3> pairs_stress(const Body& body, std::int64_t i) const;
   void find_constants(const Body& body);
-  void check_constants(const Body& body) const;
+  void check_constants(const Body& body, std::size_t region) const;
   void weigh(const Body& body);
   double calibration(std::int64_t full) const;
   double hood_volume(std::int64_t i) const;
@@ -47,7 +58,7 @@ class ContinuumKinematicsPeridynamics final : public peridynamics::Peridynamic {
     return damage_.whole(i) || damage_.intact(hood_.find_half(i, p));
   }
 
-  Constants constants_;
+  std::vector<Constants> constants_;  // of each material
   peridynamics::HoodVolume hood_form_ = peridynamics::HoodVolume::sum;
   bool conservative_ = false, signed_volume_ = false;
   double full_count_ = 0;              // neighbours of a full lattice neighbourhood, form sphere

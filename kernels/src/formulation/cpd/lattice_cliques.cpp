@@ -49,7 +49,7 @@ std::vector<Cell> cells_ahead(std::int32_t reach, double limit) {
 }  // namespace
 
 bool LatticeCliques::setup(const peridynamics::Neighbourhood& hood, const Lattice& lattice,
-                           bool signed_volume) {
+                           bool signed_volume, bool weighed) {
   *this = {};
   spacing_ = lattice.spacing;
   signed_volume_ = signed_volume;
@@ -79,6 +79,7 @@ bool LatticeCliques::setup(const peridynamics::Neighbourhood& hood, const Lattic
     *this = {};
     return false;
   }
+  if (weighed) bonds_.setup(shape_, reach_, ahead_.members, ahead_.pairs, ahead_.thirds, limit);
   make_tiles();
   return true;
 }
@@ -119,6 +120,8 @@ bool LatticeCliques::list_shapes(double limit) {
     volume_.push_back(V);
     inverse_.push_back(V == 0 ? 0.0 : 1.0 / std::abs(V));
   }
+  for (const Cell& c : all)
+    for (const std::int32_t along : c) around_cells_.push_back(along);
   // Every tile is as wide as the widest, with rows outside of the body.
   for (const Cell& c : ahead)
     distance_.push_back((c[2] * (kMiddles + 2 * reach_) + c[1]) * width_ + c[0]);
@@ -126,6 +129,18 @@ bool LatticeCliques::list_shapes(double limit) {
   for (std::size_t m = 0; m < all.size(); ++m)
     member_at_[place_of(all[m])] = static_cast<std::int32_t>(m);
   return true;
+}
+
+void LatticeCliques::connect(const peridynamics::Neighbourhood& hood,
+                             const peridynamics::Damage& damage, std::int64_t i) {
+  const Cell& own = cell_[static_cast<std::size_t>(i)];
+  for (std::int32_t b = hood.first(i); b < hood.last(i); ++b) {
+    Cell step = cell_[static_cast<std::size_t>(hood.neighbour(b))];
+    for (std::size_t k = 0; k < 3; ++k) step[k] -= own[k];
+    const std::int32_t place = member_at_[place_of(step)];
+    if (place < static_cast<std::int32_t>(ahead_.members.size()))
+      bonds_.set(own, place, damage.intact(b));
+  }
 }
 
 std::size_t LatticeCliques::place_of(const Cell& c) const {
@@ -138,7 +153,8 @@ Shapes LatticeCliques::shapes_of(const ShapeList& list) const {
           list.pairs.data(),  static_cast<std::int32_t>(list.pairs.size()),
           list.thirds.data(), volume_.data(),
           inverse_.data(),    largest_volume_,
-          signed_volume_};
+          signed_volume_,     bonds_.of_pairs(),
+          bonds_.of_thirds()};
 }
 
 void LatticeCliques::make_tiles() {
@@ -210,7 +226,8 @@ void LatticeCliques::sort_eights(Tile& tile) const {
 }
 
 // The places of all points that a tile reaches, in spacings, and which of them are there.
-void LatticeCliques::take_places(const Tile& tile, const double* u, Scratch& scratch) const {
+void LatticeCliques::take_places(const Tile& tile, const double* u, const double* weight,
+                                 Scratch& scratch) const {
   const double inverse = 1 / spacing_;
   std::size_t place = 0;
   for (std::int32_t row = 0; row < static_cast<std::int32_t>(local_rows(tile)); ++row) {
@@ -222,6 +239,7 @@ void LatticeCliques::take_places(const Tile& tile, const double* u, Scratch& scr
                               static_cast<double>(start[1] - tile.middle),
                               static_cast<double>(start[2] - tile.slow)};
       scratch.there[place] = point < 0 ? 0.0 : 1.0;
+      if (weight != nullptr) scratch.weight[place] = point < 0 ? 0.0 : 0.25 * weight[point];
       for (std::size_t k = 0; k < 3; ++k) {
         scratch.x[k][place] = cell[k];
         if (point >= 0)
@@ -231,15 +249,17 @@ void LatticeCliques::take_places(const Tile& tile, const double* u, Scratch& scr
   }
 }
 
-void LatticeCliques::sum_tile(Tile& tile, const double* u, Scratch& scratch) const {
+void LatticeCliques::sum_tile(Tile& tile, const double* u, const double* weight,
+                              Scratch& scratch) const {
   for (auto& along : tile.f) std::fill(along.begin(), along.end(), 0.0);
   std::fill(tile.e.begin(), tile.e.end(), 0.0);
-  take_places(tile, u, scratch);
+  take_places(tile, u, weight, scratch);
   const Shapes shapes = shapes_of(ahead_);
   const LatticeTile arrays{{scratch.x[0].data(), scratch.x[1].data(), scratch.x[2].data()},
                            scratch.there.data(),
                            {tile.f[0].data(), tile.f[1].data(), tile.f[2].data()},
-                           tile.e.data()};
+                           tile.e.data(),
+                           weight == nullptr ? nullptr : scratch.weight.data()};
   const auto& kernels = CLEAVE_KERNELS(kLatticeKernels).chosen();
   const char* kind = tile.eights.data();
   for (std::int32_t s = 0; s < tile.slows; ++s)
@@ -248,8 +268,11 @@ void LatticeCliques::sum_tile(Tile& tile, const double* u, Scratch& scratch) con
         const char what = *kind++;
         if (what == kEmpty) continue;
         const std::int64_t row = s * (kMiddles + 2 * reach_) + m + reach_;
+        const bool damaged =
+            weight != nullptr &&
+            bonds_.look_up({first, tile.middle + m, tile.slow + s}, scratch.carries.data());
         kernels.eight(shapes, arrays, row * width_ + reach_ + first, what == kFull,
-                      scratch.bench.data());
+                      scratch.bench.data(), damaged ? scratch.carries.data() : nullptr);
       }
 }
 
@@ -258,16 +281,20 @@ void LatticeCliques::expect_workers(int workers) {
     Scratch& s = scratch_.emplace_back();
     for (auto& along : s.x) along.assign(tiles_.front().e.size(), 0.0);
     s.there.assign(tiles_.front().e.size(), 0.0);
-    s.bench.assign(64 * ahead_.members.size(), 0.0);
+    s.weight.assign(tiles_.front().e.size(), 0.0);
+    s.bench.assign(72 * ahead_.members.size(), 0.0);
+    s.carries.assign(bonds_.count(), 0xff);
     s.around.assign(32 * (around_.members.size() + 1), 0.0);
   }
 }
 
-void LatticeCliques::sum(const double* u, ThreadTeam& team, double* sums) {
+void LatticeCliques::sum(const double* u, const double* weight, ThreadTeam& team, double* sums) {
   team.for_blocks(static_cast<std::int64_t>(tiles_.size()), [&](std::int64_t tile, int worker) {
-    sum_tile(tiles_[static_cast<std::size_t>(tile)], u, scratch_[static_cast<std::size_t>(worker)]);
+    sum_tile(tiles_[static_cast<std::size_t>(tile)], u, weight,
+             scratch_[static_cast<std::size_t>(worker)]);
   });
-  const double area = spacing_ * spacing_, half_volume = 0.5 * area * spacing_;
+  const double area = spacing_ * spacing_,
+               half_volume = (weight == nullptr ? 0.5 : 0.125) * area * spacing_;
   team.for_blocks(static_cast<std::int64_t>(part_begin_.size()) - 1, [&](std::int64_t row) {
     const auto r = static_cast<std::size_t>(row);
     for (std::int32_t f = 0; f < shape_[0]; ++f) {
@@ -290,11 +317,10 @@ void LatticeCliques::sum(const double* u, ThreadTeam& team, double* sums) {
   });
 }
 
-void LatticeCliques::sum_by_itself(const peridynamics::Neighbourhood& hood,
-                                   const peridynamics::Damage& damage,
-                                   std::span<const std::int32_t> points, const double* u,
-                                   int worker, double* sums) {
-  AlignedReals& bench = scratch_[static_cast<std::size_t>(worker)].around;
+void LatticeCliques::lay_around(const peridynamics::Neighbourhood& hood,
+                                const peridynamics::Damage& damage,
+                                std::span<const std::int32_t> points, const double* u,
+                                AlignedReals& bench) const {
   std::fill(bench.begin(), bench.end(), 0.0);
   const double inverse = 1 / spacing_;
   for (std::size_t l = 0; l < points.size(); ++l) {
@@ -313,6 +339,32 @@ void LatticeCliques::sum_by_itself(const peridynamics::Neighbourhood& hood,
       to[kEight * 3] = 1;
     }
   }
+}
+
+void LatticeCliques::stress_sums(const peridynamics::Neighbourhood& hood,
+                                 const peridynamics::Damage& damage,
+                                 std::span<const std::int32_t> points, const double* u, int worker,
+                                 Mat<3>* sums) const {
+  AlignedReals& bench = scratch_[static_cast<std::size_t>(worker)].around;
+  lay_around(hood, damage, points, u, bench);
+  alignas(64) double found[9 * kEight];
+  CLEAVE_KERNELS(kLatticeKernels)
+      .chosen()
+      .stress(shapes_of(around_), around_cells_.data(), bench.data(), found);
+  const double volume = spacing_ * spacing_ * spacing_;
+  for (std::size_t l = 0; l < points.size(); ++l)
+    for (std::size_t r = 0; r < 3; ++r)
+      for (std::size_t c = 0; c < 3; ++c)
+        sums[l](static_cast<int>(axis_[r]), static_cast<int>(axis_[c])) =
+            volume * found[kEight * (3 * r + c) + l];
+}
+
+void LatticeCliques::sum_by_itself(const peridynamics::Neighbourhood& hood,
+                                   const peridynamics::Damage& damage,
+                                   std::span<const std::int32_t> points, const double* u,
+                                   int worker, double* sums) {
+  AlignedReals& bench = scratch_[static_cast<std::size_t>(worker)].around;
+  lay_around(hood, damage, points, u, bench);
   double* found = bench.data() + 32 * around_.members.size();
   CLEAVE_KERNELS(kLatticeKernels).chosen().around(shapes_of(around_), bench.data(), found);
   const double area = spacing_ * spacing_;
@@ -326,12 +378,13 @@ void LatticeCliques::sum_by_itself(const peridynamics::Neighbourhood& hood,
 std::int64_t LatticeCliques::bytes() const {
   std::size_t bytes = point_.capacity() * sizeof(std::int32_t) +
                       (ahead_.thirds.capacity() + around_.thirds.capacity()) * sizeof(ShapeThird) +
-                      cell_.capacity() * sizeof(Cell) + parts_.capacity() * sizeof(Part);
+                      cell_.capacity() * sizeof(Cell) + parts_.capacity() * sizeof(Part) +
+                      around_cells_.capacity() * sizeof(double);
   for (const Tile& tile : tiles_)
     bytes += 4 * tile.e.capacity() * sizeof(double) + tile.eights.capacity();
   for (const Scratch& s : scratch_)
-    bytes += (4 * s.there.capacity() + s.bench.capacity() + s.around.capacity()) * sizeof(double);
-  return static_cast<std::int64_t>(bytes);
+    bytes += (5 * s.there.capacity() + s.bench.capacity() + s.around.capacity()) * sizeof(double);
+  return static_cast<std::int64_t>(bytes) + bonds_.bytes();
 }
 
 }  // namespace cleave::cpd

@@ -3,7 +3,8 @@
 //
 // The lattice is cut into fixed tiles. A tile sums its tetrahedra in arrays of its own, which reach as far
 // as the horizon, and each point then takes the parts of all tiles in their order: the same bits for any
-// number of threads. All bonds count as intact here: points at cracks are summed by themselves.
+// number of threads. In plain sums all bonds count as intact: points at cracks are summed by themselves. Weighed
+// sums know of broken bonds.
 #pragma once
 
 #include <array>
@@ -12,8 +13,10 @@
 #include <vector>
 
 #include "core/aligned.hpp"
+#include "core/tensor.hpp"
 #include "core/thread_team.hpp"
 #include "formulation/cpd/lattice.hpp"
+#include "formulation/cpd/lattice_bonds.hpp"
 #include "formulation/cpd/lattice_kernels.hpp"
 #include "formulation/peridynamics/damage.hpp"
 
@@ -21,19 +24,29 @@ namespace cleave::cpd {
 
 class LatticeCliques {
  public:
-  // False where the list of shapes would be too long; then nothing is kept.
-  bool setup(const peridynamics::Neighbourhood& hood, const Lattice& lattice, bool signed_volume);
+  // False where the list of shapes would be too long; then nothing is kept. weighed: sums will be.
+  bool setup(const peridynamics::Neighbourhood& hood, const Lattice& lattice, bool signed_volume,
+             bool weighed);
   bool active() const { return !tiles_.empty(); }
   // Tetrahedra that a point with all its neighbours is the first of.
   std::int64_t shapes() const { return static_cast<std::int64_t>(ahead_.thirds.size()); }
 
   void expect_workers(int workers);
   // [in] u (3,n) displacement [m]   [out] sums (4,n): - sum of g G_i [m2], sum of 1/2 |V| g^2 [m3]
-  void sum(const double* u, ThreadTeam& team, double* sums);
+  // weight (n): conservative weights W; then the sums are weighed, and of the energy each member has a quarter,
+  // as those of CloudCliques. NULL: plain.
+  void sum(const double* u, const double* weight, ThreadTeam& team, double* sums);
+  // For weighed sums: which bonds of a point carry.
+  void connect(const peridynamics::Neighbourhood& hood, const peridynamics::Damage& damage,
+               std::int64_t i);
   // Sets the sums of the listed points, eight or fewer, by themselves: with the bonds that carry only.
   void sum_by_itself(const peridynamics::Neighbourhood& hood, const peridynamics::Damage& damage,
                      std::span<const std::int32_t> points, const double* u, int worker,
                      double* sums);
+  // For the listed points, eight or fewer: sum of g (G_j (x) X_ij + ...) [m3] with the bonds that carry.  [PD stress]
+  void stress_sums(const peridynamics::Neighbourhood& hood, const peridynamics::Damage& damage,
+                   std::span<const std::int32_t> points, const double* u, int worker,
+                   Mat<3>* sums) const;
   std::int64_t bytes() const;
 
  private:
@@ -47,7 +60,8 @@ class LatticeCliques {
     std::int32_t tile, row;
   };
   struct Scratch {
-    AlignedReals x[3], there, bench, around;
+    AlignedReals x[3], there, weight, bench, around;
+    std::vector<std::uint8_t> carries;
   };
   // Members, and the shapes that they make with the first point.
   struct ShapeList {
@@ -61,8 +75,11 @@ class LatticeCliques {
   Shapes shapes_of(const ShapeList& list) const;
   void make_tiles();
   void sort_eights(Tile& tile) const;
-  void take_places(const Tile& tile, const double* u, Scratch& scratch) const;
-  void sum_tile(Tile& tile, const double* u, Scratch& scratch) const;
+  void take_places(const Tile& tile, const double* u, const double* weight, Scratch& scratch) const;
+  void sum_tile(Tile& tile, const double* u, const double* weight, Scratch& scratch) const;
+  // Where the neighbours of the points are whose bonds carry, on the bench of the worker.
+  void lay_around(const peridynamics::Neighbourhood& hood, const peridynamics::Damage& damage,
+                  std::span<const std::int32_t> points, const double* u, AlignedReals& bench) const;
   std::int32_t point_at(std::int32_t fast, std::int32_t middle, std::int32_t slow) const;
   std::int32_t side() const { return 2 * reach_ + 1; }
   std::size_t place_of(const Cell& from_point) const;  // in member_at_
@@ -81,10 +98,12 @@ class LatticeCliques {
   std::vector<std::int32_t> member_at_;  // around, by cell from the point: slow, middle, fast
   std::vector<double> volume_, inverse_;
   std::int32_t largest_volume_ = 0;
+  LatticeBonds bonds_;  // for weighed sums
   std::vector<Tile> tiles_;
   std::vector<Part> parts_;               // of each row, in the order of tiles
   std::vector<std::int32_t> part_begin_;  // (rows+1)
-  std::vector<Scratch> scratch_;          // of each worker
+  AlignedReals around_cells_;             // (3,members) of around_
+  mutable std::vector<Scratch> scratch_;  // of each worker
 };
 
 }  // namespace cleave::cpd

@@ -12,6 +12,7 @@ namespace {
 
 using peridynamics::kWide;
 using peridynamics::Lanes;
+using peridynamics::lanes_of;
 using peridynamics::load_lanes8;
 using peridynamics::store_lanes8;
 using peridynamics::with_sign_of;
@@ -66,8 +67,20 @@ void collect(const Shapes& s, const LatticeTile& tile, std::int64_t at, const La
   add(energy, tile.e + at);
 }
 
-template <bool kSigned, bool kFull>
-Lanes sum_shapes(const Shapes& shapes, double* bench) {
+enum class Weighed { no, yes, damaged };
+
+// Of the eight points: the weights of the first and, behind the bench, of the members.
+struct Weights {
+  Lanes own;
+  const double* member;
+  const std::uint8_t *to_member, *between;
+  CLEAVE_INLINE Lanes of(std::int32_t m) const { return load_lanes8(member + kWide * m); }
+  CLEAVE_INLINE Lanes bond_to(std::int32_t m) const { return lanes_of(to_member[m]); }
+  CLEAVE_INLINE Lanes bond(std::int32_t k) const { return lanes_of(between[k]); }
+};
+
+template <bool kSigned, bool kFull, Weighed kWeighed>
+Lanes sum_shapes(const Shapes& shapes, double* bench, const Weights& weights) {
   const double* volumes = shapes.volume + shapes.offset;
   const double* inverses = shapes.inverse + shapes.offset;
   const ShapeThird* thirds = shapes.thirds;
@@ -79,6 +92,17 @@ Lanes sum_shapes(const Shapes& shapes, double* bench) {
     Lanes hx(0.0), hy(0.0), hz(0.0), stored(0.0), there(1.0);
     if constexpr (!kFull)
       there = load_lanes8(on_a + kThere * kWide) * load_lanes8(on_b + kThere * kWide);
+    // Weights of the tetrahedra of this pair; damaged: parts that carry if a c, b c or the bond to c do.
+    Lanes both(0.0), on_own(0.0), of_a(0.0), of_b(0.0);
+    if constexpr (kWeighed == Weighed::yes)
+      both = weights.own + weights.of(pair->a) + weights.of(pair->b);
+    if constexpr (kWeighed == Weighed::damaged) {
+      const Lanes to_a = weights.bond_to(pair->a), to_b = weights.bond_to(pair->b),
+                  ab = weights.bond(shapes.pair_bond[pair - shapes.pairs]);
+      on_own = weights.own * to_a * to_b;
+      of_a = weights.of(pair->a) * to_a * ab;
+      of_b = weights.of(pair->b) * to_b * ab;
+    }
     for (const ShapeThird* third = thirds + pair->first; third != thirds + pair->last; ++third) {
       double* on_c = bench + kMember * third->member;
       const Place c(on_c);
@@ -86,7 +110,15 @@ Lanes sum_shapes(const Shapes& shapes, double* bench) {
       const double V = volumes[third->volume];
       // At v = 0 the published bracket has no value; here it takes the one of the zero's sign.
       const Lanes change = kSigned ? v - V : v - with_sign_of(Lanes(std::fabs(V)), v);
-      const Lanes g = inverses[third->volume] * change;
+      Lanes g = inverses[third->volume] * change;
+      if constexpr (kWeighed == Weighed::yes) g = g * (both + weights.of(third->member));
+      if constexpr (kWeighed == Weighed::damaged) {
+        const std::int32_t* bonds = shapes.third_bonds + 2 * (third - thirds);
+        const Lanes to_c = weights.bond_to(third->member), ac = weights.bond(bonds[0]),
+                    bc = weights.bond(bonds[1]);
+        g = g *
+            (on_own * to_c + of_a * ac + of_b * bc + weights.of(third->member) * to_c * ac * bc);
+      }
       hx = hx + g * c.x;
       hy = hy + g * c.y;
       hz = hz + g * c.z;
@@ -111,16 +143,30 @@ Lanes sum_shapes(const Shapes& shapes, double* bench) {
   return energy;
 }
 
-void eight(const Shapes& given, const LatticeTile& tile, std::int64_t at, bool full,
-           double* bench) {
+template <bool kSigned, bool kFull>
+Lanes sum_eight(const Shapes& shapes, const LatticeTile& tile, std::int64_t at, double* bench,
+                const std::uint8_t* carries) {
+  if (tile.weight == nullptr) return sum_shapes<kSigned, kFull, Weighed::no>(shapes, bench, {});
+  double* member = bench + kMember * shapes.members;
+  for (std::int32_t m = 0; m < shapes.members; ++m)
+    store_lanes8(load_lanes8(tile.weight + at + shapes.distance[m]), member + kWide * m);
+  const Weights weights{load_lanes8(tile.weight + at), member, carries,
+                        carries == nullptr ? nullptr : carries + shapes.members};
+  return carries == nullptr ? sum_shapes<kSigned, kFull, Weighed::yes>(shapes, bench, weights)
+                            : sum_shapes<kSigned, kFull, Weighed::damaged>(shapes, bench, weights);
+}
+
+void eight(const Shapes& given, const LatticeTile& tile, std::int64_t at, bool full, double* bench,
+           const std::uint8_t* carries) {
   const Shapes shapes = given;
   lay_out(shapes, tile, at, bench);
   Lanes energy;
   if (shapes.signed_volume) {
-    energy = full ? sum_shapes<true, true>(shapes, bench) : sum_shapes<true, false>(shapes, bench);
+    energy = full ? sum_eight<true, true>(shapes, tile, at, bench, carries)
+                  : sum_eight<true, false>(shapes, tile, at, bench, carries);
   } else {
-    energy =
-        full ? sum_shapes<false, true>(shapes, bench) : sum_shapes<false, false>(shapes, bench);
+    energy = full ? sum_eight<false, true>(shapes, tile, at, bench, carries)
+                  : sum_eight<false, false>(shapes, tile, at, bench, carries);
   }
   collect(shapes, tile, at, energy, bench);
 }
@@ -168,10 +214,56 @@ void around(const Shapes& shapes, const double* bench, double* sums) {
                        : sum_around<false>(shapes, bench, sums);
 }
 
+template <bool kSigned>
+void sum_stress(const Shapes& given, const double* cells, const double* bench, double* sums) {
+  constexpr std::int64_t kBond = 4 * kWide;
+  const Shapes shapes = given;
+  const double* volumes = shapes.volume + shapes.offset;
+  const double* inverses = shapes.inverse + shapes.offset;
+  Lanes sum[9];
+  for (auto& component : sum) component = Lanes(0.0);
+  for (const ShapePair* pair = shapes.pairs; pair != shapes.pairs + shapes.pair_count; ++pair) {
+    const double *at_a = bench + kBond * pair->a, *at_b = bench + kBond * pair->b;
+    const double *A = cells + 3 * pair->a, *B = cells + 3 * pair->b;
+    const Place a(at_a), b(at_b);
+    const Lanes carry = load_lanes8(at_a + 3 * kWide) * load_lanes8(at_b + 3 * kWide);
+    const Lanes px = a.y * b.z - a.z * b.y, py = a.z * b.x - a.x * b.z, pz = a.x * b.y - a.y * b.x;
+    Lanes hx(0.0), hy(0.0), hz(0.0), before[3] = {Lanes(0.0), Lanes(0.0), Lanes(0.0)};
+    for (const ShapeThird* third = shapes.thirds + pair->first; third != shapes.thirds + pair->last;
+         ++third) {
+      const double* at_c = bench + kBond * third->member;
+      const double* C = cells + 3 * third->member;
+      const Place c(at_c);
+      const Lanes v = px * c.x + py * c.y + pz * c.z;
+      const double V = volumes[third->volume];
+      const Lanes change = kSigned ? v - V : v - with_sign_of(Lanes(std::fabs(V)), v);
+      const Lanes g = load_lanes8(at_c + 3 * kWide) * (inverses[third->volume] * change);
+      hx = hx + g * c.x;
+      hy = hy + g * c.y;
+      hz = hz + g * c.z;
+      for (int m = 0; m < 3; ++m) before[m] = before[m] + g * C[m];
+    }
+    const Lanes on_a[3] = {b.y * hz - b.z * hy, b.z * hx - b.x * hz, b.x * hy - b.y * hx};
+    const Lanes on_b[3] = {hy * a.z - hz * a.y, hz * a.x - hx * a.z, hx * a.y - hy * a.x};
+    const Lanes on_c[3] = {px, py, pz};
+    for (int d = 0; d < 3; ++d)
+      for (int m = 0; m < 3; ++m)
+        sum[3 * d + m] =
+            sum[3 * d + m] + carry * (on_a[d] * A[m] + on_b[d] * B[m] + on_c[d] * before[m]);
+  }
+  for (int k = 0; k < 9; ++k) store_lanes8(sum[k], sums + kWide * k);
+}
+
+void stress(const Shapes& shapes, const double* cells, const double* bench, double* sums) {
+  shapes.signed_volume ? sum_stress<true>(shapes, cells, bench, sums)
+                       : sum_stress<false>(shapes, cells, bench, sums);
+}
+
 }  // namespace
 }  // namespace cpd
 
 extern const cleave_call::LatticeKernels kLatticeKernels;
-constinit const cleave_call::LatticeKernels kLatticeKernels = {&cpd::eight, &cpd::around};
+constinit const cleave_call::LatticeKernels kLatticeKernels = {&cpd::eight, &cpd::around,
+                                                               &cpd::stress};
 
 }  // namespace cleave

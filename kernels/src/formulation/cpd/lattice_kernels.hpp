@@ -7,6 +7,9 @@
 // third members c behind it: P = a x b and H = sum g c serve them all, see clique_kernels.hpp. A member that
 // is missing lies on the first point: then every force on members that are there vanishes by itself, and
 // only the energy needs a mask.
+//
+// Conservative weights: a tetrahedron counts with the sum of a quarter of the weights of its members, each without the
+// three bonds of that member if one of them is broken.                              [PD weights, 12, 13]
 #pragma once
 
 #include <cstdint>
@@ -31,25 +34,34 @@ struct Shapes {
   const double *volume, *inverse;
   std::int32_t offset;
   bool signed_volume;
+  // Of the pairs, and of the thirds (a c, then b c): which bond between two members it is, for `carries`.
+  const std::int32_t *pair_bond, *third_bonds;
 };
 
 // The points of a tile and of what it reaches, row by row; cells without a point have there = 0 and any
 // finite position.
 struct LatticeTile {
   const double* x[3];
-  const double* there;  // 0 or 1
-  double* f[3];         // - sum of g G, added to
-  double* e;            // sum of |V| g^2, added to
+  const double* there;   // 0 or 1
+  double* f[3];          // - sum of g G, added to
+  double* e;             // sum of |V| g^2, added to
+  const double* weight;  // a quarter of the weight; then sums are weighed. NULL: plain sums
 };
 
 struct LatticeKernels {
   // Eight points from `at` on; full: all members of all eight are there. bench: eight rows of eight a member,
   // on a cache line.
-  void (*eight)(const Shapes&, const LatticeTile&, std::int64_t at, bool full, double* bench);
+  // With weights the bench is a row longer for each member. carries: a byte for each member and then for each
+  // bond between two: in which of the eight it carries; NULL: all do. Only with weights.
+  void (*eight)(const Shapes&, const LatticeTile&, std::int64_t at, bool full, double* bench,
+                const std::uint8_t* carries);
   // The sums of eight points, anywhere, from the shapes around a point of which it is the first, whatever the
   // order of the others. bench: four rows of eight a member: its place from the point, 1 or 0: the bond to it
   // carries, else place 0. [out] sums: four rows of eight: - sum of g G_i, sum of |V| g^2
   void (*around)(const Shapes&, const double* bench, double* sums);
+  // The same for sum of g (G_j (x) X_ij + G_k (x) X_ik + G_l (x) X_il), nine rows of eight, row by row of the
+  // tensor. cells (3,members): X_ij of the members                                            [PD stress]
+  void (*stress)(const Shapes&, const double* cells, const double* bench, double* sums);
 };
 
 }  // namespace cleave_call

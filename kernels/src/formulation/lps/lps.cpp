@@ -31,7 +31,8 @@ void LinearPeridynamicSolid::prepare(Body& body) {
       const double L = hood_.length(point, hood_.neighbour(b));
       weighted_[i] += influence(L) * L * L * hood_.volume[hood_.neighbour(b)];
     }
-    if (weighted_[i] > 0) alpha_[i] = dimension_ * (dimension_ + 2) * elastic_.mu / weighted_[i];
+    if (weighted_[i] > 0)
+      alpha_[i] = dimension_ * (dimension_ + 2) * elastic(point).mu / weighted_[i];
     left_[i] = hood_.volume[i];
   }
 }
@@ -47,16 +48,16 @@ void LinearPeridynamicSolid::reconnect(std::int64_t i) {
     carrying += influence(L) * L * L * hood_.volume[p];
   });
   const double d = dimension_;
-  volumetric_[at] =
-      d / weighted_[at] *
-      (elastic_.bulk_in(dimension_) - (d + 2) * elastic_.mu / d * (2 - carrying / weighted_[at]));
+  volumetric_[at] = d / weighted_[at] *
+                    (elastic(i).bulk_in(dimension_) -
+                     (d + 2) * elastic(i).mu / d * (2 - carrying / weighted_[at]));
 }
 
 // W_i <= 1/2 max(alpha, d^2 kappa/m) sum omega e^2 v, so the bonds of that stiffness bound the body.
 double LinearPeridynamicSolid::largest_rate(const Body& body) const {
-  const double kappa = elastic_.bulk_in(dimension_);
   const auto stiffness = [&](std::int64_t i) {
     const auto at = static_cast<std::size_t>(i);
+    const double kappa = elastic(i).bulk_in(dimension_);
     return weighted_[at] > 0
                ? std::fmax(alpha_[at], dimension_ * dimension_ * kappa / weighted_[at])
                : 0.0;

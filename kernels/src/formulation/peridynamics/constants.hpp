@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "formulation/peridynamics/parameters.hpp"
 #include "model/body.hpp"
@@ -20,14 +22,26 @@ struct Elastic {
   double bulk_in(int dimension) const { return lambda + 2 * mu / dimension; }
 };
 
-// Throws UNSUPPORTED for laws that are more than elastic: the formulation takes their constants only.
-Elastic elastic_constants(const Body& body);
+// Of the body's own material and of its regions, in the order of Body::region_of. Throws UNSUPPORTED for laws
+// that are more than elastic: the formulation takes their constants only.
+std::vector<Elastic> elastic_constants(const Body& body);
+
+// For messages: the body, or one of its regions.
+std::string material_label(const Body& body, std::size_t region);
+
+// What all materials of a body have in common.
+struct Reach {
+  int dimension;
+  double horizon, section;
+};
 
 // c of bond-based peridynamics [PD bond].
-double bond_constant(const Body& body, const Elastic& e, int dimension, double horizon,
-                     double section, KeptModulus kept);
+double bond_constant(const Body& body, std::size_t region, const Elastic& e, const Reach& reach,
+                     KeptModulus kept);
 
-// Critical stretch of group fracture; negative: bonds do not break.      [PD critical]
-double critical_stretch(const Body& body, const Elastic& e, int dimension, double horizon);
+// Critical stretch of the bonds of each material, of the region itself or of group fracture; infinite: they do
+// not break.                                                                               [PD critical]
+std::vector<double> critical_stretches(const Body& body, const std::vector<Elastic>& materials,
+                                       const Reach& reach);
 
 }  // namespace cleave::peridynamics

@@ -44,14 +44,30 @@ BondMotion bond_motion(const Neighbourhood& hood, const Body& body, std::int64_t
   return m;
 }
 
-void Damage::setup(Body& body, const Neighbourhood& hood, double limit) {
+void Damage::setup(Body& body, const Neighbourhood& hood, std::vector<double> limits,
+                   double between) {
   hood_ = &hood;
-  limit_ = limit;
+  region_ = body.region.empty() ? nullptr : body.region.data();
+  limits_ = std::move(limits);
+  between_ = between;
+  least_.assign(static_cast<std::size_t>(hood.points), kUnbounded);
+  for (std::int64_t i = 0; i < hood.points; ++i)
+    for (auto b = hood.first(i); b < hood.last(i); ++b)
+      least_[static_cast<std::size_t>(i)] =
+          std::fmin(least_[static_cast<std::size_t>(i)], limit(i, hood.neighbour(b)));
+  active_ = std::any_of(least_.begin(), least_.end(), [](double l) { return std::isfinite(l); });
   status_ = body.fields.integer("bond_status");
   shield_ = shields(body);
   bits_.assign(static_cast<std::size_t>(hood.half_bonds() / 64 + 2), 0);
   intact_.resize(static_cast<std::size_t>(hood.points));
   rebuild();
+}
+
+double Damage::limit(std::int64_t i, std::int64_t p) const {
+  if (region_ == nullptr) return limits_[0];
+  const std::int32_t a = region_[i], b = region_[p];
+  if (a != b && between_ > 0) return between_;
+  return std::fmin(limits_[static_cast<std::size_t>(a)], limits_[static_cast<std::size_t>(b)]);
 }
 
 void Damage::rebuild() {
@@ -88,7 +104,7 @@ void Damage::find(const double* x, const std::vector<char>& flag,
     for (std::int32_t half = hood_->upper(i); half < hood_->last(i); ++half) {
       const std::int32_t p = hood_->neighbour(half);
       if (!bit(half) || !may_break(i, p)) continue;
-      if (stretch(*hood_, x, i, p) > limit_) found.push_back(hood_->bond_of_upper(i, half));
+      if (stretch(*hood_, x, i, p) > limit(i, p)) found.push_back(hood_->bond_of_upper(i, half));
     }
   }
 }
@@ -107,7 +123,8 @@ void Damage::mark(std::int32_t bond, Status status) {
 
 std::int64_t Damage::bytes() const {
   return static_cast<std::int64_t>(bits_.capacity() * sizeof(std::uint64_t) +
-                                   intact_.capacity() * sizeof(std::int32_t) + shield_.capacity());
+                                   intact_.capacity() * sizeof(std::int32_t) + shield_.capacity() +
+                                   least_.capacity() * sizeof(double));
 }
 
 }  // namespace cleave::peridynamics

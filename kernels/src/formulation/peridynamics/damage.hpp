@@ -17,13 +17,16 @@ enum Status : std::int32_t { kIntact = 0, kBroken = 1, kCut = 2 };
 
 class Damage {
  public:
-  // limit: critical stretch; negative: bonds do not break.
-  void setup(Body& body, const Neighbourhood& hood, double limit);
+  // Critical stretches of the materials of the body, and of bonds between two of them; 0: the smaller one.
+  void setup(Body& body, const Neighbourhood& hood, std::vector<double> limits, double between);
   // Bits and counts from the field bond_status.
   void rebuild();
 
-  bool active() const { return limit_ >= 0; }
-  double limit() const { return limit_; }
+  bool active() const { return active_; }
+  // Critical stretch of a bond.
+  double limit(std::int64_t i, std::int64_t p) const;
+  // Of the weakest bond of each point.
+  const double* least_limits() const { return least_.data(); }
   bool intact(std::int32_t half) const { return bit(half); }
   std::int32_t intact_count(std::int64_t i) const { return intact_[static_cast<std::size_t>(i)]; }
   bool whole(std::int64_t i) const { return intact_count(i) == hood_->count(i); }
@@ -52,7 +55,11 @@ class Damage {
   std::vector<std::int32_t> intact_;  // (n) bonds that carry
   std::vector<char> shield_;  // (n) 1: in a zone without failure, 2: driven in every direction
   std::array<std::int64_t, 3> counts_{};  // by status
-  double limit_ = -1;
+  const std::int32_t* region_ = nullptr;  // (n) of the body, or NULL: one material
+  std::vector<double> limits_;            // of each material
+  double between_ = 0;
+  std::vector<double> least_;  // (n)
+  bool active_ = false;
 };
 
 // (l - L)/L

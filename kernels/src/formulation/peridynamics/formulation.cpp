@@ -1,6 +1,7 @@
 #include "formulation/peridynamics/formulation.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/instruction_set.hpp"
@@ -70,18 +71,21 @@ void Peridynamic::setup(Body& body, ThreadTeam&) {
   }
   dimension_ = section > 0 ? 1 : body.dimension();
   use_lattice_ = options.choice("stencil") == static_cast<int>(Stencil::lattice);
-  elastic_ = elastic_constants(body);
+  materials_ = elastic_constants(body);
   hood_.build(body, dimension_, horizon, section);
   const auto n = static_cast<std::size_t>(hood_.points);
   reference_.assign(4 * n, 0.0);
   now_.assign(4 * n, 0.0);
   left_.assign(n, 0.0);
+  material_of_.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
-    body.point.mass[i] = elastic_.density * hood_.volume[i];
+    material_of_[i] = body.region_of(static_cast<std::int64_t>(i));
+    body.point.mass[i] = elastic(static_cast<std::int64_t>(i)).density * hood_.volume[i];
     for (std::size_t k = 0; k < 3; ++k) reference_[4 * i + k] = body.point.X[3 * i + k];
     reference_[4 * i + 3] = hood_.volume[i];
   }
-  damage_.setup(body, hood_, critical_stretch(body, elastic_, dimension_, horizon));
+  damage_.setup(body, hood_, critical_stretches(body, materials_, reach()),
+                options.real("interface_strain"));
   interactions_ = body.fields.real("interactions");
   interactions_[0] = static_cast<double>(hood_.half_bonds());
   prepare(body);
@@ -163,7 +167,7 @@ bool Peridynamic::break_most_critical(Body& body, const Clock& clock, ThreadTeam
   for (const std::int32_t bond : broken_) {
     hood_.for_bonds(bond, bond + 1,
                     [&](std::int32_t, std::int64_t i, std::int32_t p, std::int32_t) {
-                      const double s = stretch(hood_, body.point.x, i, p);
+                      const double s = stretch(hood_, body.point.x, i, p) / damage_.limit(i, p);
                       if (s > largest) chosen = bond;
                       largest = std::fmax(largest, s);
                     });
@@ -179,10 +183,8 @@ void Peridynamic::find_broken(Body& body, ThreadTeam& team) {
   if (!damage_.active()) return;
   take_positions(body, team);
   const PairArrays arrays = pair_arrays(body);
-  // A little below the limit, so that rounding hides none; who it is decides damage_.find.
-  const double limit = (1 + damage_.limit()) * (1 - 1e-12);
   for_blocks(team, hood_.points, [&](std::int64_t, std::int64_t first, std::int64_t last) {
-    kernels().stretched(arrays, first, last, limit, flag_.data() + first);
+    kernels().stretched(arrays, first, last, damage_.least_limits(), flag_.data() + first);
   });
   damage_.find(body.point.x, flag_, broken_);
 }
@@ -243,7 +245,7 @@ void Peridynamic::record_events(Body& body, const Clock& clock) {
                       for (int k = 0; k < 3; ++k)
                         e.midpoint[k] = 0.5 * (hood_.X[kVector * i + k] + hood_.X[kVector * p + k]);
                       e.criterion = stretch(hood_, body.point.x, i, p);
-                      e.limit = damage_.limit();
+                      e.limit = damage_.limit(i, p);
                       e.released = part_of(i) + part_of(p);
                       body.events.push_back(e);
                     });
@@ -309,8 +311,12 @@ bool Peridynamic::derive(const Body& body, std::string_view field, std::int64_t 
   return true;
 }
 
-bool Peridynamic::derive_integers(const Body&, std::string_view field, std::int64_t first,
+bool Peridynamic::derive_integers(const Body& body, std::string_view field, std::int64_t first,
                                   std::int64_t last, std::int64_t* values) const {
+  if (field == "region") {
+    for (std::int64_t i = first; i < last; ++i) values[i - first] = body.region_of(i);
+    return true;
+  }
   if (field != "bond_ends") return false;
   hood_.for_bonds(first, last,
                   [&](std::int32_t bond, std::int64_t i, std::int32_t p, std::int32_t) {
@@ -342,13 +348,6 @@ Mat<3> Peridynamic::fitted_gradient(const Body& body, std::int64_t i) const {
   return h;
 }
 
-// The stress that a plane condition adds: sigma_33 of plane strain.
-Mat<3> Peridynamic::stress_with_plane(const Body& body, std::int64_t i, int worker) const {
-  Mat<3> p = point_stress(body, i, worker);
-  if (body.kinematics == CLEAVE_PLANE_STRAIN) p(2, 2) = elastic_.nu * (p(0, 0) + p(1, 1));
-  return p;
-}
-
 void Peridynamic::observe(Body& body, std::string_view field) {
   const bool wants_stress = is_stress(field) && !stress_observed_;
   const bool wants_gradient = (is_stress(field) || is_deformation(field)) && !gradient_observed_;
@@ -357,13 +356,20 @@ void Peridynamic::observe(Body& body, std::string_view field) {
   ThreadTeam& team = team_ == nullptr ? alone : *team_;
   constexpr std::int64_t kSmall = 32;  // points: a stress may be dear
   team.for_blocks((hood_.points + kSmall - 1) / kSmall, [&](std::int64_t block, int worker) {
-    for (std::int64_t i = block * kSmall; i < std::min(hood_.points, (block + 1) * kSmall); ++i) {
-      if (wants_gradient) {
-        const Mat<3> h = fitted_gradient(body, i);
-        store_tensor(h, body.point.h, i);
-        body.point.ratio[i] = determinant(plus_identity(h));
-      }
-      if (wants_stress) store_tensor(stress_with_plane(body, i, worker), body.point.p, i);
+    const std::int64_t first = block * kSmall, last = std::min(hood_.points, first + kSmall);
+    for (std::int64_t i = first; wants_gradient && i < last; ++i) {
+      const Mat<3> h = fitted_gradient(body, i);
+      store_tensor(h, body.point.h, i);
+      body.point.ratio[i] = determinant(plus_identity(h));
+    }
+    if (!wants_stress) return;
+    std::array<Mat<3>, kSmall> stress;
+    point_stresses(body, first, last, worker, stress.data());
+    for (std::int64_t i = first; i < last; ++i) {
+      Mat<3>& p = stress[static_cast<std::size_t>(i - first)];
+      // What the plane condition adds: sigma_33.
+      if (body.kinematics == CLEAVE_PLANE_STRAIN) p(2, 2) = elastic(i).nu * (p(0, 0) + p(1, 1));
+      store_tensor(p, body.point.p, i);
     }
   });
   gradient_observed_ = gradient_observed_ || wants_gradient;
@@ -374,7 +380,9 @@ std::int64_t Peridynamic::bytes() const {
   return hood_.bytes() + damage_.bytes() +
          static_cast<std::int64_t>((now_.capacity() + reference_.capacity() + left_.capacity()) *
                                    sizeof(double)) +
-         static_cast<std::int64_t>(flag_.capacity() + place_.capacity() * sizeof(std::int32_t));
+         static_cast<std::int64_t>(flag_.capacity() +
+                                   (place_.capacity() + material_of_.capacity()) *
+                                       sizeof(std::int32_t));
 }
 
 }  // namespace cleave::peridynamics

@@ -24,6 +24,7 @@ struct PointEnergy {
 class Peridynamic : public Formulation {
  public:
   bool takes_volumes() const override { return true; }
+  bool takes_regions() const override { return true; }
   void setup(Body& body, ThreadTeam& team) override;
   void rebuild(Body& body, ThreadTeam& team) override;
   double stable_step(const Body&) const override { return stable_step_; }
@@ -64,6 +65,11 @@ class Peridynamic : public Formulation {
   // P of the own interactions of a point, D x D components; what follows from a plane condition is added
   // by the caller.                                                                    [PD stress]
   virtual Mat<3> point_stress(const Body& body, std::int64_t i, int worker) const = 0;
+  // The same for points first to last, where several at a time are faster.
+  virtual void point_stresses(const Body& body, std::int64_t first, std::int64_t last, int worker,
+                              Mat<3>* stress) const {
+    for (std::int64_t i = first; i < last; ++i) stress[i - first] = point_stress(body, i, worker);
+  }
 
   PairArrays pair_arrays(Body& body) const;
   const PairKernels& kernels() const;
@@ -90,7 +96,12 @@ class Peridynamic : public Formulation {
 
   Neighbourhood hood_;
   Damage damage_;
-  Elastic elastic_;
+  std::vector<Elastic> materials_;         // of the body, then of its regions
+  std::vector<std::int32_t> material_of_;  // (n) place in materials_
+  const Elastic& elastic(std::int64_t i) const {
+    return materials_[static_cast<std::size_t>(material_of_[static_cast<std::size_t>(i)])];
+  }
+  Reach reach() const { return {dimension_, hood_.horizon, hood_.section}; }
   int dimension_ = 3;  // 1: a bar
   bool use_lattice_ = true;
   AlignedReals now_, reference_;  // (4,n) x y z right; X Y Z volume
@@ -105,7 +116,6 @@ class Peridynamic : public Formulation {
   void release(Body& body, const Clock& clock, ThreadTeam& team, double sign);
   void record_events(Body& body, const Clock& clock);
   Mat<3> fitted_gradient(const Body& body, std::int64_t i) const;
-  Mat<3> stress_with_plane(const Body& body, std::int64_t i, int worker) const;
 
   double stable_step_ = 0;
   double rate_ = 0;                    // largest_rate

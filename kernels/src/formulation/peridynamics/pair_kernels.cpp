@@ -64,7 +64,19 @@ CLEAVE_INLINE void put(const Lanes (&f)[3], double* force, std::int64_t i) {
   for (int k = 0; k < 3; ++k) force[3 * i + k] = sum_of(f[k]);
 }
 
-template <bool kProduct>
+enum class Form { product, sum, series, mean };
+
+template <Form kForm>
+CLEAVE_INLINE Lanes weight_of(const PairArrays& a, const Eight& eight, const Lanes& right,
+                              std::int64_t i) {
+  if constexpr (kForm == Form::product) return a.left[i] * right;
+  if constexpr (kForm == Form::sum) return a.left[i] + right;
+  const Lanes both = a.alpha[i] + eight.scalars(a.alpha);
+  if constexpr (kForm == Form::series) return a.left[i] * right / both;
+  return a.left[i] * right * both;
+}
+
+template <Form kForm>
 void pair_force(const PairArrays& arrays, std::int64_t first, std::int64_t last) {
   const PairArrays a = arrays;
   for (std::int64_t i = first; i < last; ++i) {
@@ -73,8 +85,9 @@ void pair_force(const PairArrays& arrays, std::int64_t first, std::int64_t last)
     for (std::int32_t b = a.row_begin[i]; b < end; b += kWide) {
       const unsigned byte = carrying(a, b, end);
       if (byte == 0) continue;
-      const Bond r = bond_of(a, Eight(a, b, end), i);
-      const Lanes weight = kProduct ? a.left[i] * r.fourth : a.left[i] + r.fourth;
+      const Eight eight(a, b, end);
+      const Bond r = bond_of(a, eight, i);
+      const Lanes weight = weight_of<kForm>(a, eight, r.fourth, i);
       const Lanes change = r.l - r.L, pull = lanes_of(byte) * weight * (change / r.L);
       const Lanes scale = pull * r.inverse;
       energy = energy + pull * change;
@@ -130,13 +143,14 @@ void state_force(const PairArrays& arrays, std::int64_t first, std::int64_t last
   }
 }
 
-void stretched(const PairArrays& arrays, std::int64_t first, std::int64_t last, double limit,
+void stretched(const PairArrays& arrays, std::int64_t first, std::int64_t last, const double* limit,
                char* flag) {
   const PairArrays a = arrays;
-  const double square = limit * limit;
   for (std::int64_t i = first; i < last; ++i) {
     const std::int32_t end = a.row_begin[i + 1];
     const std::int32_t upper = end - (a.bond_begin[i + 1] - a.bond_begin[i]);
+    // A little below the limit, so that rounding hides none.
+    const double most = (1 + limit[i]) * (1 - 1e-12), square = most * most;
     bool found = false;
     for (std::int32_t b = upper; b < end; b += kWide) {
       const Eight eight(a, b, end);
@@ -160,7 +174,12 @@ void stretched(const PairArrays& arrays, std::int64_t first, std::int64_t last, 
 
 extern const cleave_call::PairKernels kPairKernels;
 constinit const cleave_call::PairKernels kPairKernels = {
-    &peridynamics::pair_force<true>, &peridynamics::pair_force<false>, &peridynamics::extension,
-    &peridynamics::state_force, &peridynamics::stretched};
+    &peridynamics::pair_force<peridynamics::Form::product>,
+    &peridynamics::pair_force<peridynamics::Form::sum>,
+    &peridynamics::pair_force<peridynamics::Form::series>,
+    &peridynamics::pair_force<peridynamics::Form::mean>,
+    &peridynamics::extension,
+    &peridynamics::state_force,
+    &peridynamics::stretched};
 
 }  // namespace cleave

@@ -22,7 +22,7 @@ struct PairArrays {
   // the force state [PD lps].
   std::int32_t influence;
   double horizon;
-  const double* alpha;   // (n) [N m-5]
+  const double* alpha;   // (n) [N m-5]; for bonds between materials see `series` and `mean`
   const double* spread;  // (n) T
   double* extension;     // (n) sum omega L e v, set by `extension`
   double* square;        // (n) sum omega e^2 v, set by `extension`
@@ -32,12 +32,16 @@ struct PairKernels {
   // f_i = sum_j w_ij (l - L)/L n, w_ij = left_i right_j or left_i + right_j.      [PD bond, one]
   void (*product)(const PairArrays&, std::int64_t first, std::int64_t last);
   void (*sum)(const PairArrays&, std::int64_t first, std::int64_t last);
+  // The same with w_ij = left_i right_j/(alpha_i + alpha_j), or times that.        [PD interface]
+  void (*series)(const PairArrays&, std::int64_t first, std::int64_t last);
+  void (*mean)(const PairArrays&, std::int64_t first, std::int64_t last);
   // sum_j omega L e v_j and sum_j omega e^2 v_j over intact bonds                  [PD lps]
   void (*extension)(const PairArrays&, std::int64_t first, std::int64_t last);
   // Force only: f_i = v_i sum_j v_j omega ((alpha_i + alpha_j) e + (T_i + T_j) L) n
   void (*state)(const PairArrays&, std::int64_t first, std::int64_t last);
-  // Whether a point has a neighbour of a higher number at l > limit L, broken bonds too: 1 or 0 each.
-  void (*stretched)(const PairArrays&, std::int64_t first, std::int64_t last, double limit,
+  // Whether a point has a neighbour of a higher number at l - L > limit_i L or a little less, broken bonds too:
+  // 1 or 0 each.
+  void (*stretched)(const PairArrays&, std::int64_t first, std::int64_t last, const double* limit,
                     char* flag);
 };
 

@@ -11,6 +11,7 @@ namespace cleave::peridynamics {
 
 enum class KeptModulus { exact, shear, bulk, young };
 enum class Influence { inverse_distance, constant, cone };
+enum class Interface { series, mean };
 enum class Stencil { lattice, never };
 enum class HoodVolume { sum, sphere };
 enum class Calibration { paper, energy };
@@ -34,6 +35,13 @@ inline constexpr std::array kPeridynamicsParameters = {
     real_parameter("section", "m2", kNotNegative, 0.0,
                    "area of the cross-section of a bar along x, kinematics plane_stress: the "
                    "one-dimensional constants are used and volumes are in m3; 0: no bar"),
+    choice_parameter("interface", "series|mean", "series",
+                     "bond_pd only: constant of a bond between two materials: that of two "
+                     "springs in series (harmonic mean), or the arithmetic mean",
+                     "[PD interface]"),
+    real_parameter("interface_strain", "1", kNotNegative, 0.0,
+                   "critical stretch of bonds between two materials; 0: the smaller of the two",
+                   "[PD interface]"),
     choice_parameter("stencil", "lattice|never", "lattice",
                      "lattice: points on a lattice share one list of interactions, never: they are "
                      "treated as any cloud; same forces but for rounding"),

@@ -77,10 +77,19 @@ class CloudBody {
     add(formulation, kinematics, cloud, settings, E, nu, rho);
     model.setup();
   }
+  // before_setup(model): what else is said of the body; a refusal of the set-up is kept.
+  template <class F>
   CloudBody(int32_t formulation, int32_t kinematics, const Cloud& cloud,
-            const std::vector<Setting>& settings, double nu, std::string& refusal) {
-    add(formulation, kinematics, cloud, settings, 2.1e5, nu, 7.8e-9);
+            const std::vector<Setting>& settings, const std::array<double, 3>& material,
+            const F& before_setup) {
+    add(formulation, kinematics, cloud, settings, material[0], material[1], material[2]);
+    before_setup(model);
     if (cleave_model_setup(model) != CLEAVE_OK) refusal = last_message();
+  }
+  CloudBody(int32_t formulation, int32_t kinematics, const Cloud& cloud,
+            const std::vector<Setting>& settings, double nu, std::string& said) {
+    add(formulation, kinematics, cloud, settings, 2.1e5, nu, 7.8e-9);
+    if (cleave_model_setup(model) != CLEAVE_OK) said = last_message();
   }
 
   // Cuts about one bond in `every`.
@@ -102,6 +111,7 @@ class CloudBody {
   }
 
   Model model;
+  std::string refusal;
 
  private:
   void add(int32_t formulation, int32_t kinematics, const Cloud& cloud,

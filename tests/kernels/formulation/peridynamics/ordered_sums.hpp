@@ -91,16 +91,26 @@ class OrderedSums {
   // Silling's bond-based sum, and the linear peridynamic solid of a body without damage with influence
   // horizon/L.
   std::vector<double> bonds(double c) const {
+    return bonds([c](std::size_t, std::size_t) { return c; });
+  }
+  // c(i,j) between materials.
+  template <class C>
+  std::vector<double> bonds(const C& c) const {
     return forces([&](std::size_t i, Point& b) {
       for (std::size_t j = 0; j < n_; ++j) {
         if (!near(i, j) || !carries(i, j)) continue;
         const Point d = x_[j] - x_[i];
         const double L = norm(cloud_.X[j] - cloud_.X[i]), l = norm(d);
-        b = b + (c * (l - L) / L * cloud_.volume[j] / l) * d;
+        b = b + (c(i, j) * (l - L) / L * cloud_.volume[j] / l) * d;
       }
     });
   }
   std::vector<double> state_based(double K, double mu) const {
+    return state_based([=](std::size_t) { return std::array{K, mu}; });
+  }
+  // moduli(i): K and mu of the material of a point.
+  template <class M>
+  std::vector<double> state_based(const M& moduli) const {
     std::vector<double> m(n_, 0.0), theta(n_, 0.0);
     for (std::size_t i = 0; i < n_; ++i) {
       for (std::size_t j = 0; j < n_; ++j) {
@@ -113,6 +123,7 @@ class OrderedSums {
     }
     const auto force = [&](std::size_t i, double L, double e) {
       const double w = horizon_ / L;
+      const auto [K, mu] = moduli(i);
       return 3 * K * theta[i] / m[i] * w * L + 15 * mu / m[i] * w * (e - theta[i] * L / 3);
     };
     return forces([&](std::size_t i, Point& b) {
@@ -123,6 +134,68 @@ class OrderedSums {
         b = b + ((force(i, L, l - L) + force(j, L, l - L)) * cloud_.volume[j] / l) * d;
       }
     });
+  }
+  // Conservative weights [PD weights], pair by pair and four by four; constants C1, C3 of the points.
+  std::vector<double> conservative(const std::vector<double>& C1, const std::vector<double>& C3,
+                                   bool signed_volume) const {
+    std::vector<double> f(3 * n_, 0.0), W1(n_, 0.0), W3(n_, 0.0);
+    const auto volume = [&](const std::vector<Point>& x, const std::array<std::size_t, 4>& m) {
+      return dot(cross(x[m[1]] - x[m[0]], x[m[2]] - x[m[0]]), x[m[3]] - x[m[0]]);
+    };
+    const auto add = [&](std::size_t i, double scale, const Point& direction) {
+      for (std::size_t k = 0; k < 3; ++k) f[3 * i + k] += scale * direction[k];
+    };
+    const auto for_sets = [&](const auto& act) {
+      for (std::size_t i = 0; i < n_; ++i)
+        for (std::size_t j = i + 1; j < n_; ++j) {
+          if (!near(i, j)) continue;
+          for (std::size_t k = j + 1; k < n_; ++k) {
+            if (!near(i, k) || !near(j, k)) continue;
+            for (std::size_t l = k + 1; l < n_; ++l) {
+              const std::array set{i, j, k, l};
+              if (near(i, l) && near(j, l) && near(k, l) &&
+                  std::fabs(volume(cloud_.X, set)) > 1e-9 * horizon_ * horizon_ * horizon_)
+                act(set);
+            }
+          }
+        }
+    };
+    for_sets([&](const auto& set) {
+      for (const std::size_t m : set) W3[m] += 1;
+    });
+    for (std::size_t i = 0; i < n_; ++i) {
+      double count = 0;
+      for (std::size_t j = 0; j < n_; ++j) count += near(i, j) ? 1 : 0;
+      const double h = hood(i);
+      if (count > 0) W1[i] = cloud_.volume[i] * C1[i] * h / count;
+      if (W3[i] > 0) W3[i] = cloud_.volume[i] * C3[i] * h * h * h / W3[i];
+    }
+    for (std::size_t i = 0; i < n_; ++i)
+      for (std::size_t j = 0; j < n_; ++j) {
+        if (!near(i, j) || !carries(i, j)) continue;
+        const Point d = x_[j] - x_[i];
+        const double L = norm(cloud_.X[j] - cloud_.X[i]), l = norm(d);
+        add(i, 0.5 * (W1[i] + W1[j]) * (l - L) / L / l, d);
+      }
+    for_sets([&](const auto& set) {
+      double W = 0;
+      for (const std::size_t m : set) {
+        double carry = 1;
+        for (const std::size_t p : set) carry *= m == p || carries(m, p) ? 1 : 0;
+        W += 0.25 * W3[m] * carry;
+      }
+      const double V = volume(cloud_.X, set), v = volume(x_, set);
+      const double g =
+          signed_volume ? (v / V - 1) * (V > 0 ? 1 : -1) : v / std::fabs(V) - (v > 0 ? 1 : -1);
+      const Point a = x_[set[1]] - x_[set[0]], b = x_[set[2]] - x_[set[0]],
+                  c = x_[set[3]] - x_[set[0]];
+      const Point G[3] = {cross(b, c), cross(c, a), cross(a, b)};
+      for (std::size_t k = 0; k < 3; ++k) {
+        add(set[k + 1], -W * g, G[k]);
+        add(set[0], W * g, G[k]);
+      }
+    });
+    return f;
   }
   // Energy of the linear peridynamic solid with the bonds that carry, m of all bonds.
   double state_based_energy(double K, double mu) const {
