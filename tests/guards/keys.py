@@ -13,7 +13,7 @@ NOT_IN_A_DECK = {}
 def check(tree):
     table = tree.text(TABLE)
     groups = {arguments[0] for arguments in calls(table, "CLEAVE_GROUP")}
-    keys = {(arguments[0], arguments[1]) for arguments in calls(table, "CLEAVE_KEY")}
+    keys = {(arguments[0], arguments[1].lower()) for arguments in calls(table, "CLEAVE_KEY")}
     kernel_groups = {arguments[0] for arguments in calls(tree.text(GROUPS_OF_KERNELS), "CLEAVE_GROUP")}
     keys |= {(group, arguments[0]) for group in kernel_groups for arguments in calls(table, "CLEAVE_PARAMETER_KEY")}
     parameters = _parameters(tree)

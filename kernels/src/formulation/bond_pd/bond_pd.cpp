@@ -31,8 +31,9 @@ double BondPeridynamics::constant(std::int64_t i, std::int64_t p) const {
   return interface_ == Interface::series ? 1 / both : both;
 }
 
-double BondPeridynamics::largest_rate(const Body& body) const {
-  return pair_rate(body, [this](std::int64_t i, std::int64_t p) { return weight(i, p); });
+void BondPeridynamics::find_rates(const Body& body, std::span<double> rates) const {
+  pair_rates(
+      body, [this](std::int64_t i, std::int64_t p) { return weight(i, p); }, rates);
 }
 
 void BondPeridynamics::act(Body& body, ThreadTeam& team) {

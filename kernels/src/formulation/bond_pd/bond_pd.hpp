@@ -12,7 +12,7 @@ class BondPeridynamics final : public peridynamics::Peridynamic {
 
  private:
   void prepare(Body& body) override;
-  double largest_rate(const Body& body) const override;
+  void find_rates(const Body& body, std::span<double> rates) const override;
   void act(Body& body, ThreadTeam& team) override;
   peridynamics::PointEnergy point_energy(const Body& body, std::int64_t i,
                                          int worker) const override;

@@ -113,7 +113,7 @@ void ContinuumKinematicsPeridynamics::weigh(const Body& body) {
 
 // The row sums of [PD step]. Conservative weights are means of those of the points of a set, which all are
 // neighbours of each: the largest of them bounds it.
-double ContinuumKinematicsPeridynamics::largest_rate(const Body& body) const {
+void ContinuumKinematicsPeridynamics::find_rates(const Body& body, std::span<double> rates) const {
   const auto most = [&](const std::vector<double>& weights, std::int64_t i) {
     double w = std::fabs(weights[static_cast<std::size_t>(i)]);
     if (!conservative_) return w;
@@ -121,7 +121,6 @@ double ContinuumKinematicsPeridynamics::largest_rate(const Body& body) const {
       w = std::fmax(w, std::fabs(weights[static_cast<std::size_t>(hood_.neighbour(b))]));
     return w;
   };
-  double largest = 0;
   for (std::size_t i = 0; i < left_.size(); ++i) {
     const auto point = static_cast<std::int64_t>(i);
     double sum = 0;
@@ -133,9 +132,8 @@ double ContinuumKinematicsPeridynamics::largest_rate(const Body& body) const {
     }
     if (!two_.empty()) sum += most(two_, point) * numbers_[i].pair_rate;
     if (!three_.empty()) sum += most(three_, point) * numbers_[i].triple_rate;
-    largest = std::fmax(largest, sum / body.point.mass[i]);
+    rates[i] = sum / body.point.mass[i];
   }
-  return largest;
 }
 
 void ContinuumKinematicsPeridynamics::expect_workers(int workers) {

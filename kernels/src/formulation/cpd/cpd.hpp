@@ -21,7 +21,7 @@ class ContinuumKinematicsPeridynamics final : public peridynamics::Peridynamic {
     double one = 0, two = 0, three = 0;
   };
   void prepare(Body& body) override;
-  double largest_rate(const Body& body) const override;
+  void find_rates(const Body& body, std::span<double> rates) const override;
   void expect_workers(int workers) override;
   void reconnect(std::int64_t i) override {
     if (conservative_ && lattice_.active()) lattice_.connect(hood_, damage_, i);

@@ -54,7 +54,7 @@ void LinearPeridynamicSolid::reconnect(std::int64_t i) {
 }
 
 // W_i <= 1/2 max(alpha, d^2 kappa/m) sum omega e^2 v, so the bonds of that stiffness bound the body.
-double LinearPeridynamicSolid::largest_rate(const Body& body) const {
+void LinearPeridynamicSolid::find_rates(const Body& body, std::span<double> rates) const {
   const auto stiffness = [&](std::int64_t i) {
     const auto at = static_cast<std::size_t>(i);
     const double kappa = elastic(i).bulk_in(dimension_);
@@ -62,10 +62,11 @@ double LinearPeridynamicSolid::largest_rate(const Body& body) const {
                ? std::fmax(alpha_[at], dimension_ * dimension_ * kappa / weighted_[at])
                : 0.0;
   };
-  return pair_rate(body, [&](std::int64_t i, std::int64_t p) {
+  const auto weight = [&](std::int64_t i, std::int64_t p) {
     const double L = hood_.length(i, p);
     return L * hood_.volume[i] * hood_.volume[p] * influence(L) * (stiffness(i) + stiffness(p));
-  });
+  };
+  pair_rates(body, weight, rates);
 }
 
 double LinearPeridynamicSolid::energy_density(std::int64_t i, const State& s) const {

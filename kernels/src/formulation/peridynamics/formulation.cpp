@@ -90,8 +90,11 @@ void Peridynamic::setup(Body& body, ThreadTeam&) {
   interactions_[0] = static_cast<double>(hood_.half_bonds());
   prepare(body);
   for (std::int64_t i = 0; i < hood_.points; ++i) reconnect(i);
-  rate_ = largest_rate(body);
-  stable_step_ = kSafety * 2 / std::sqrt(rate_);
+  rates_.assign(n, 0.0);
+  find_rates(body, rates_);
+  const double largest = *std::max_element(rates_.begin(), rates_.end());
+  if (materials_.size() == 1) rates_.assign(1, largest);
+  stable_step_ = kSafety * 2 / std::sqrt(largest);
   flag_.assign(n, 0);
   place_.assign(n, -1);
   const std::size_t reserve = std::min(static_cast<std::size_t>(hood_.bonds()), kReserve);
@@ -149,8 +152,9 @@ void Peridynamic::forces(Body& body, ThreadTeam& team) {
 void Peridynamic::stiffness_bound(const Body& body, ThreadTeam&, std::span<double> bound) {
   for (std::int64_t i = 0; i < hood_.points; ++i) {
     const bool carried = damage_.intact_count(i) > 0;
+    const double rate = rates_.size() == 1 ? rates_[0] : rates_[static_cast<std::size_t>(i)];
     for (int k = 0; k < dimension_; ++k)
-      bound[static_cast<std::size_t>(kVector * i + k)] = carried ? rate_ * body.point.mass[i] : 0.0;
+      bound[static_cast<std::size_t>(kVector * i + k)] = carried ? rate * body.point.mass[i] : 0.0;
   }
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/aligned.hpp"
@@ -30,7 +31,7 @@ class Peridynamic : public Formulation {
   double stable_step(const Body&) const override { return stable_step_; }
   std::string static_obstacle(const Body&) const override;
 
-  // Uniform: the bound of the stable step for every point that has a bond left.
+  // The bound of the stable step for every point that has a bond left; with several materials, each point's own.
   void stiffness_bound(const Body& body, ThreadTeam& team, std::span<double> bound) override;
 
   void break_bonds(Body& body, const Clock& clock, ThreadTeam& team) override;
@@ -52,8 +53,8 @@ class Peridynamic : public Formulation {
  protected:
   // Constants and weights, after the neighbourhood is known. Sets the interactions besides bonds.
   virtual void prepare(Body& body) = 0;
-  // Largest eigenvalue of M^-1 K, or a bound above it [s-2].
-  virtual double largest_rate(const Body& body) const = 0;
+  // Bounds of the row sums of M^-1 K for each point, the largest of which is above its eigenvalues [s-2].
+  virtual void find_rates(const Body& body, std::span<double> rates) const = 0;
   // Scratch for so many workers at the same time.
   virtual void expect_workers(int) {}
   // Other bonds of point i carry than before.
@@ -73,19 +74,17 @@ class Peridynamic : public Formulation {
 
   PairArrays pair_arrays(Body& body) const;
   const PairKernels& kernels() const;
-  // 2 sum_j w_ij / L_ij / m_i, the largest over points; weight(i, p)
+  // 2 sum_j w_ij / L_ij / m_i; weight(i, p)
   template <class W>
-  double pair_rate(const Body& body, const W& weight) const {
-    double largest = 0;
+  void pair_rates(const Body& body, const W& weight, std::span<double> rates) const {
     for (std::int64_t i = 0; i < hood_.points; ++i) {
       double sum = 0;
       for (auto b = hood_.first(i); b < hood_.last(i); ++b) {
         const std::int32_t p = hood_.neighbour(b);
         sum += weight(i, p) / hood_.length(i, p);
       }
-      largest = std::fmax(largest, 2 * sum / body.point.mass[i]);
+      rates[static_cast<std::size_t>(i)] = 2 * sum / body.point.mass[i];
     }
-    return largest;
   }
   // f(neighbour, half) for the bonds of i that carry.
   template <class F>
@@ -118,7 +117,7 @@ class Peridynamic : public Formulation {
   Mat<3> fitted_gradient(const Body& body, std::int64_t i) const;
 
   double stable_step_ = 0;
-  double rate_ = 0;                    // largest_rate
+  std::vector<double> rates_;          // (n) several materials, else of the stiffest point alone
   std::vector<char> flag_;             // (n) a bond may be beyond its limit
   std::vector<std::int32_t> broken_;   // bonds of the step being done
   std::vector<std::int32_t> touched_;  // their ends, each once

@@ -108,6 +108,42 @@ TEST(PeridynamicRegions, SetsOfSeveralMaterialsHaveTheMeanOfTheirWeights) {
   }
 }
 
+// In both plane conditions, with broken bonds and sets of several materials.
+TEST(PeridynamicRegions, PlaneForcesAreGradientsOfTheEnergy) {
+  for (const int32_t formulation :
+       {CLEAVE_FORMULATION_bond_pd, CLEAVE_FORMULATION_cpd, CLEAVE_FORMULATION_lps})
+    for (const int32_t kinematics : {CLEAVE_PLANE_STRAIN, CLEAVE_PLANE_STRESS}) {
+      const Cloud cloud = random_cloud(2, 6, 5);
+      std::vector<Setting> settings = {{"peridynamics", "horizon", 0.4},
+                                       {"peridynamics", "modulus", 0, "bulk"}};
+      if (formulation == CLEAVE_FORMULATION_cpd) {
+        settings.push_back({"cpd", "weights", 0, "conservative"});
+        settings.push_back({"cpd", "negative_constants", 0, "allow"});
+      }
+      const auto at = [&](const std::vector<double>& u) {
+        auto two =
+            std::make_unique<TwoMaterials>(formulation, kinematics, cloud, settings, kSoft, kStiff);
+        two->body.damage(9, 2);
+        two->body.forces(u);
+        return two;
+      };
+      const auto u = random_field(cloud, 0.02, 6);
+      const auto f = at(u)->body.model.real("internal_force");
+      const double step = 1e-6;
+      for (std::size_t k = 0; k < u.size(); k += 7) {
+        if (k % 3 == 2) continue;
+        auto plus = u, minus = u;
+        plus[k] += step;
+        minus[k] -= step;
+        const double slope =
+            (at(plus)->body.model.energies().elastic - at(minus)->body.model.energies().elastic) /
+            (2 * step);
+        EXPECT_NEAR(f[k], -slope, 1e-7 * largest(f)) << formulation << ' ' << kinematics;
+      }
+      expect_no_resultant(f);
+    }
+}
+
 TEST(PeridynamicRegions, OneMaterialInTwoRegionsIsOneMaterial) {
   for (const int32_t formulation :
        {CLEAVE_FORMULATION_bond_pd, CLEAVE_FORMULATION_cpd, CLEAVE_FORMULATION_lps}) {
