@@ -68,12 +68,12 @@ BODIES = {
 
 def points(body):
     """Coordinates (n, 3) and volumes: the middles of cells, moved by up to 0.35 unless they are a lattice."""
-    random = numpy.random.default_rng(body.seed)
+    generator = numpy.random.default_rng(body.seed)
     grid = numpy.stack(numpy.meshgrid(*[numpy.arange(n) + 0.5 for n in body.cells], indexing="ij"), -1).reshape(-1, body.dimension)
     volumes = numpy.ones(len(grid))
     if not body.lattice:
-        grid = grid + random.uniform(-0.35, 0.35, grid.shape)
-        volumes = random.uniform(0.7, 1.3, len(grid))
+        grid = grid + generator.uniform(-0.35, 0.35, grid.shape)
+        volumes = generator.uniform(0.7, 1.3, len(grid))
     return numpy.column_stack([grid, numpy.zeros((len(grid), 3 - body.dimension))]), volumes
 
 
