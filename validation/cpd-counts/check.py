@@ -2,20 +2,17 @@
 
 Counts are those that `cleave check` prints.  The numbers of a full neighbourhood follow from four small blocks: a set of
 span s fits prod (n_d - s_d) times in a block of n_d points, so that the mixed difference in the three n_d counts each
-set once.  Constants follow from the forces of a run, by sums written here as they are printed in the paper (ordered.py).
+set once.  Constants follow from the forces of a run, by sums written as they are printed in the paper (tools/ordered_sums.py).
 """
 import pathlib
 import re
-import sys
 
 import matplotlib.pyplot as plt
 import numpy
-from tools import deck, picture
+from tools import deck, ordered_sums, picture
 from tools.simulation import Run
 
 HERE = pathlib.Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE))
-import ordered  # noqa: E402
 
 SIZES = (40, 50, 60, 70, 80, 90, 100)             # n of Table 1
 SPACING, SMALL = 1.125, ((5, 5, 5), (5, 5, 6), (5, 6, 6), (6, 6, 6))
@@ -91,7 +88,7 @@ def check(case):
     for name in IMPACTS:
         horizon = IMPACTS[name].get("peridynamics.horizon", 0.0675)
         spacing = IMPACTS[name].get("lattice.spacing", 0.025)
-        constants, left = ordered.constants(case.results[f"impact-{name}"].exodus, horizon, spacing**3)
+        constants, left = ordered_sums.constants(case.results[f"impact-{name}"].exodus, horizon, spacing**3)
         case.figure(f"C1_{name}", constants[0])
         case.figure(f"C2_{name}", constants[1] / constants[0] * horizon**3)
         case.figure(f"C3_{name}", constants[2] / (constants[0] / horizon**8 if name == "block" else 1))

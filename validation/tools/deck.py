@@ -59,3 +59,11 @@ def vary(text, changes):
         else:
             raise DeckError(f"group &{found[1]} of the deck has no key '{found[3]}'")
     return "\n".join(lines)
+
+
+def without(text, group):
+    """The deck without the first group of that name, and without the empty line after it."""
+    lines = text.split("\n")
+    first, last = _group_span(lines, group.lower(), 1)
+    empty = last + 1 < len(lines) and not lines[last + 1].strip()
+    return "\n".join(lines[:first] + lines[last + 1 + empty:])

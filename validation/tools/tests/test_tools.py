@@ -7,7 +7,7 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]))
 import netCDF4  # noqa: E402
 import numpy  # noqa: E402
-from tools import cracks, curves, deck, host_code, interpolation, picture, rates, results, simulation  # noqa: E402
+from tools import cracks, curves, deck, host_code, interpolation, lattice_sums, picture, rates, results, simulation  # noqa: E402
 
 DECK = """! a deck
 &run
@@ -38,6 +38,33 @@ class Decks(unittest.TestCase):
                                 ({"load(3).value": 1}, "number 3"), ({"t_end": 1}, "group.key")):
             with self.assertRaisesRegex(deck.DeckError, message):
                 deck.vary(DECK, change)
+
+    def test_a_group_can_be_taken_out(self):
+        text = "! about &cpd\n&run\n  t_end = 1\n/\n\n&cpd\n  C2 = 0\n/\n\n&load\n/\n"
+        self.assertEqual(deck.without(text, "cpd"), "! about &cpd\n&run\n  t_end = 1\n/\n\n&load\n/\n")
+        with self.assertRaisesRegex(deck.DeckError, "no group &wall"):
+            deck.without(text, "wall")
+
+
+class LatticeSums(unittest.TestCase):
+    """Against the continuum, and numbers of the theory with three digits."""
+
+    def test_many_points_are_a_continuum(self):
+        for dimension, reach in ((2, 60), (3, 20)):
+            C11, C44 = lattice_sums.bond_moduli(reach, dimension)
+            self.assertAlmostEqual(C11, 3, delta=0.02)  # measured 0.010 and 0.007
+            self.assertAlmostEqual(C44, 1, delta=0.01)
+            C11, C44 = lattice_sums.state_moduli(reach, 2, dimension)
+            self.assertAlmostEqual(C11, 2 + 2 * (dimension - 1) / dimension, delta=0.01)
+            self.assertAlmostEqual(C44, 1, delta=0.01)
+            self.assertAlmostEqual(lattice_sums.toughness(reach, dimension), 1, delta=0.01)
+
+    def test_few_points_have_their_own_constants(self):
+        ball = 4 / 3 * numpy.pi * 3.015**3 / lattice_sums.number(3.015)
+        C11, C44 = lattice_sums.bond_moduli(3.015)
+        self.assertEqual(lattice_sums.number(3.015), 122)
+        for found, expected in ((C11 / 3, 0.975), (C44, 1.123), (lattice_sums.toughness(3.015), 1.053)):
+            self.assertAlmostEqual(ball * found, expected, delta=0.0006)
 
 
 class Cracks(unittest.TestCase):
