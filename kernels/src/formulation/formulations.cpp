@@ -7,6 +7,7 @@
 #include "formulation/lps/lps.hpp"
 #include "formulation/nosb/nosb.hpp"
 #include "formulation/tlsph/tlsph.hpp"
+#include "formulation/vcpm/vcpm.hpp"
 #include "model/formulation.hpp"
 
 namespace cleave {
@@ -18,6 +19,7 @@ using fem::FiniteElements;
 using lps::LinearPeridynamicSolid;
 using nosb::CorrespondencePeridynamics;
 using tlsph::TotalLagrangianSph;
+using vcpm::VolumeCompensatedParticles;
 
 std::unique_ptr<Formulation> make_formulation(std::int32_t value) {
   std::string known;

@@ -7,6 +7,7 @@
 #include "formulation/cbm/parameters.hpp"
 #include "formulation/meshless/parameters.hpp"
 #include "formulation/peridynamics/parameters.hpp"
+#include "formulation/vcpm/parameters.hpp"
 #include "material/material.hpp"
 
 namespace cleave {
@@ -62,11 +63,19 @@ constexpr std::array kPeridynamicFields = {
 #include "formulation/peridynamics/fields.def"
 };
 
+constexpr std::array kVcpmFields = {
+#define CLEAVE_FIELD CLEAVE_FIELD_SPEC
+#include "formulation/peridynamics/fields.def"
+#define CLEAVE_FIELD CLEAVE_FIELD_SPEC
+#include "formulation/vcpm/fields.def"
+};
+
 std::vector<FieldOwner> make_field_owners() {
   std::vector<FieldOwner> owners = {
       {"core", kCoreFields},         {"cbm", kCbmFields},        {"tlsph", kKernelMethodFields},
       {"nosb", kKernelMethodFields}, {"fem", kFemFields},        {"bond_pd", kPeridynamicFields},
-      {"cpd", kPeridynamicFields},   {"lps", kPeridynamicFields}};
+      {"cpd", kPeridynamicFields},   {"lps", kPeridynamicFields},
+      {"vcpm", kVcpmFields}};
   for (const auto& m : material_table()) owners.push_back({m.name, m.history});
   return owners;
 }

@@ -72,6 +72,7 @@ void ContinuumBondMethod::setup(Body& body, ThreadTeam& team) {
   refuse_group(body, "hourglass", "it belongs to tlsph and nosb; here it is group stabilisation");
   refuse_group(body, "peridynamics", "it belongs to formulations bond_pd, cpd and lps");
   refuse_group(body, "cpd", "it belongs to formulation cpd");
+  refuse_group(body, "vcpm", "it belongs to formulation vcpm");
   if (body.simplex_nodes != body.dimension() + 1) {
     throw Error(CLEAVE_UNSUPPORTED,
                 text(body.label(), ": cbm takes simplices of ", body.dimension() + 1,

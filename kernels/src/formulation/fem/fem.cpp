@@ -139,8 +139,8 @@ double FiniteElements::highest_frequency_squared(const Body& body) const {
 }
 
 void FiniteElements::setup(Body& body, ThreadTeam&) {
-  for (const char* group :
-       {"fracture", "viscosity", "stabilisation", "kernel", "hourglass", "peridynamics", "cpd"})
+  for (const char* group : {"fracture", "viscosity", "stabilisation", "kernel", "hourglass",
+                            "peridynamics", "cpd", "vcpm"})
     refuse_group(body, group, "leave it out, or apply it to other bodies");
   elements_ = static_cast<std::int64_t>(body.given_simplices.size()) / body.simplex_nodes;
   if (elements_ == 0) {

@@ -29,6 +29,7 @@ void KernelMethod::setup(Body& body, ThreadTeam&) {
   refuse_group(body, "stabilisation", "the penalty of this method is group hourglass");
   refuse_group(body, "peridynamics", "it belongs to formulations bond_pd, cpd and lps");
   refuse_group(body, "cpd", "it belongs to formulation cpd");
+  refuse_group(body, "vcpm", "it belongs to formulation vcpm");
   const Kernel kernel = make_kernel(body);
   gradient_.build(body, kernel);
   operator_ = gradient_.gradient();

@@ -96,19 +96,6 @@ bool Damage::may_break(std::int64_t i, std::int64_t p) const {
   return ((a | b) & 1) == 0 && ((a & b) & 2) == 0;
 }
 
-void Damage::find(const double* x, const std::vector<char>& flag,
-                  std::vector<std::int32_t>& found) const {
-  found.clear();
-  for (std::int64_t i = 0; i < hood_->points; ++i) {
-    if (flag[static_cast<std::size_t>(i)] == 0) continue;
-    for (std::int32_t half = hood_->upper(i); half < hood_->last(i); ++half) {
-      const std::int32_t p = hood_->neighbour(half);
-      if (!bit(half) || !may_break(i, p)) continue;
-      if (stretch(*hood_, x, i, p) > limit(i, p)) found.push_back(hood_->bond_of_upper(i, half));
-    }
-  }
-}
-
 void Damage::mark(std::int32_t bond, Status status) {
   --counts_[static_cast<std::size_t>(status_[bond])];
   ++counts_[static_cast<std::size_t>(status)];

@@ -17,13 +17,13 @@ enum Status : std::int32_t { kIntact = 0, kBroken = 1, kCut = 2 };
 
 class Damage {
  public:
-  // Critical stretches of the materials of the body, and of bonds between two of them; 0: the smaller one.
+  // Limits of the materials of the body, and of bonds between two of them; 0: the smaller one.
   void setup(Body& body, const Neighbourhood& hood, std::vector<double> limits, double between);
   // Bits and counts from the field bond_status.
   void rebuild();
 
   bool active() const { return active_; }
-  // Critical stretch of a bond.
+  // Of a bond: the critical stretch, or what else its formulation measures.
   double limit(std::int64_t i, std::int64_t p) const;
   // Of the weakest bond of each point.
   const double* least_limits() const { return least_.data(); }
@@ -35,9 +35,21 @@ class Damage {
   const std::uint64_t* bits() const { return bits_.data(); }
   std::int32_t status(std::int64_t bond) const { return status_[bond]; }
 
-  // Intact bonds that are stretched beyond the limit and may break, in the order of bonds. `flag` (n) tells
-  // the points with a candidate among the bonds to higher neighbours.
-  void find(const double* x, const std::vector<char>& flag, std::vector<std::int32_t>& found) const;
+  // Intact bonds whose severity(i, p) is beyond the limit and that may break, in the order of bonds. `flag`
+  // (n) tells the points with a candidate among the bonds to higher neighbours.
+  template <class F>
+  void find(const std::vector<char>& flag, const F& severity,
+            std::vector<std::int32_t>& found) const {
+    found.clear();
+    for (std::int64_t i = 0; i < hood_->points; ++i) {
+      if (flag[static_cast<std::size_t>(i)] == 0) continue;
+      for (std::int32_t half = hood_->upper(i); half < hood_->last(i); ++half) {
+        const std::int32_t p = hood_->neighbour(half);
+        if (!bit(half) || !may_break(i, p)) continue;
+        if (severity(i, p) > limit(i, p)) found.push_back(hood_->bond_of_upper(i, half));
+      }
+    }
+  }
   void mark(std::int32_t bond, Status status);
   // Bonds of a status.
   std::int64_t count(Status status) const { return counts_[static_cast<std::size_t>(status)]; }

@@ -58,12 +58,14 @@ void Peridynamic::refuse_groups(const Body& body) const {
   refuse_group(body, "kernel", "its radius is horizon in group peridynamics");
   refuse_group(body, "hourglass", "bonds have no hourglass modes; leave it out");
   if (std::string_view(name()) != "cpd") refuse_group(body, "cpd", "it belongs to formulation cpd");
+  if (std::string_view(name()) != "vcpm")
+    refuse_group(body, "vcpm", "it belongs to formulation vcpm");
 }
 
 void Peridynamic::setup(Body& body, ThreadTeam&) {
   refuse_groups(body);
   const ParameterSet& options = body.group("peridynamics");
-  const double section = options.real("section"), horizon = options.real("horizon");
+  const double section = options.real("section");
   if (section > 0 && body.kinematics != CLEAVE_PLANE_STRESS) {
     throw Error(CLEAVE_UNSUPPORTED,
                 text("group peridynamics of ", body.label(), ": section ", section,
@@ -72,7 +74,7 @@ void Peridynamic::setup(Body& body, ThreadTeam&) {
   dimension_ = section > 0 ? 1 : body.dimension();
   use_lattice_ = options.choice("stencil") == static_cast<int>(Stencil::lattice);
   materials_ = elastic_constants(body);
-  hood_.build(body, dimension_, horizon, section);
+  hood_.build(body, dimension_, lay_out(body), section);
   const auto n = static_cast<std::size_t>(hood_.points);
   reference_.assign(4 * n, 0.0);
   now_.assign(4 * n, 0.0);
@@ -84,8 +86,7 @@ void Peridynamic::setup(Body& body, ThreadTeam&) {
     for (std::size_t k = 0; k < 3; ++k) reference_[4 * i + k] = body.point.X[3 * i + k];
     reference_[4 * i + 3] = hood_.volume[i];
   }
-  damage_.setup(body, hood_, critical_stretches(body, materials_, reach()),
-                options.real("interface_strain"));
+  damage_.setup(body, hood_, limits(body), options.real("interface_strain"));
   interactions_ = body.fields.real("interactions");
   interactions_[0] = static_cast<double>(hood_.half_bonds());
   prepare(body);
@@ -171,7 +172,7 @@ bool Peridynamic::break_most_critical(Body& body, const Clock& clock, ThreadTeam
   for (const std::int32_t bond : broken_) {
     hood_.for_bonds(bond, bond + 1,
                     [&](std::int32_t, std::int64_t i, std::int32_t p, std::int32_t) {
-                      const double s = stretch(hood_, body.point.x, i, p) / damage_.limit(i, p);
+                      const double s = severity(body, i, p) / damage_.limit(i, p);
                       if (s > largest) chosen = bond;
                       largest = std::fmax(largest, s);
                     });
@@ -186,11 +187,26 @@ void Peridynamic::find_broken(Body& body, ThreadTeam& team) {
   broken_.clear();
   if (!damage_.active()) return;
   take_positions(body, team);
+  flag_points(body, team, flag_);
+  damage_.find(
+      flag_, [&](std::int64_t i, std::int64_t p) { return severity(body, i, p); }, broken_);
+}
+
+void Peridynamic::flag_points(Body& body, ThreadTeam& team, std::vector<char>& flag) {
   const PairArrays arrays = pair_arrays(body);
   for_blocks(team, hood_.points, [&](std::int64_t, std::int64_t first, std::int64_t last) {
-    kernels().stretched(arrays, first, last, damage_.least_limits(), flag_.data() + first);
+    kernels().stretched(arrays, first, last, damage_.least_limits(), flag.data() + first);
   });
-  damage_.find(body.point.x, flag_, broken_);
+}
+
+double Peridynamic::severity(const Body& body, std::int64_t i, std::int64_t p) const {
+  return stretch(hood_, body.point.x, i, p);
+}
+
+double Peridynamic::lay_out(Body& body) { return body.group("peridynamics").real("horizon"); }
+
+std::vector<double> Peridynamic::limits(const Body& body) const {
+  return critical_stretches(body, materials_, reach());
 }
 
 // Breaks the bonds of broken_.
@@ -248,7 +264,7 @@ void Peridynamic::record_events(Body& body, const Clock& clock) {
                       e.second = p;
                       for (int k = 0; k < 3; ++k)
                         e.midpoint[k] = 0.5 * (hood_.X[kVector * i + k] + hood_.X[kVector * p + k]);
-                      e.criterion = stretch(hood_, body.point.x, i, p);
+                      e.criterion = severity(body, i, p);
                       e.limit = damage_.limit(i, p);
                       e.released = part_of(i) + part_of(p);
                       body.events.push_back(e);

@@ -51,6 +51,10 @@ class Peridynamic : public Formulation {
   std::int64_t bytes() const override;
 
  protected:
+  // What bonds reach [m]; before that, volumes of particles where the formulation says them.
+  virtual double lay_out(Body& body);
+  // Limit of the severity of bonds of each material; infinite: they do not break.
+  virtual std::vector<double> limits(const Body& body) const;
   // Constants and weights, after the neighbourhood is known. Sets the interactions besides bonds.
   virtual void prepare(Body& body) = 0;
   // Bounds of the row sums of M^-1 K for each point, the largest of which is above its eigenvalues [s-2].
@@ -59,6 +63,10 @@ class Peridynamic : public Formulation {
   virtual void expect_workers(int) {}
   // Other bonds of point i carry than before.
   virtual void reconnect(std::int64_t) {}
+  // 1: the point has a bond to a higher neighbour that may be beyond its limit. Called before severity.
+  virtual void flag_points(Body& body, ThreadTeam& team, std::vector<char>& flag);
+  // What is compared with the limit of a bond: its stretch.
+  virtual double severity(const Body& body, std::int64_t i, std::int64_t p) const;
   // Sets the internal force of all points and their energy per volume.
   virtual void act(Body& body, ThreadTeam& team) = 0;
   // worker: tells apart who asks at the same time.

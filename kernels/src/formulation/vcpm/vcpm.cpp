@@ -1,0 +1,236 @@
+#include "formulation/vcpm/vcpm.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "formulation/common/unused_groups.hpp"
+
+namespace cleave::vcpm {
+
+namespace {
+
+constexpr double kOffLattice = 1e-4;  // of the length of a bond
+
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+void VolumeCompensatedParticles::setup(Body& body, ThreadTeam& team) {
+  refuse_group(body, "peridynamics", "bonds reach as far as the lattice says");
+  refuse_group(body, "fracture", "limits of bonds stand in group vcpm");
+  Peridynamic::setup(body, team);
+}
+
+void VolumeCompensatedParticles::rebuild(Body& body, ThreadTeam& team) {
+  Peridynamic::rebuild(body, team);
+  find_pressures(body, team);
+}
+
+// Every particle owns a whole cell, those at the surface too.
+double VolumeCompensatedParticles::lay_out(Body& body) {
+  const ParameterSet& options = body.group("vcpm");
+  lattice_ = find_lattice(body, static_cast<LatticeChoice>(options.choice("lattice")),
+                          materials_.front().mu);
+  body.given_volumes.assign(at(body.particles), lattice_.cell);
+  return lattice_.reach;
+}
+
+void VolumeCompensatedParticles::check_bonds(const Body& body) const {
+  hood_.for_bonds(
+      0, hood_.bonds(), [&](std::int32_t, std::int64_t i, std::int32_t p, std::int32_t) {
+        const double length = hood_.length(i, p), due = lattice_.shell(length).length;
+        if (std::fabs(length - due) <= kOffLattice * due) return;
+        throw Error(
+            CLEAVE_BAD_ARGUMENT,
+            text(body.label(), ": ", body.particle_label(i), " and particle ", body.number(p),
+                 " are ", length, " [m] apart; lattice ", lattice_name(lattice_.kind),
+                 " with nearest neighbours at ", lattice_.spacing, " [m] has bonds of ",
+                 lattice_.shells.front().length,
+                 lattice_.shells.size() > 1 ? text(" and ", lattice_.shells.back().length) : "",
+                 " [m]; vcpm needs all particles on one lattice, as &lattice makes them"));
+      });
+}
+
+void VolumeCompensatedParticles::prepare(Body& body) {
+  check_bonds(body);
+  const ParameterSet& options = body.group("vcpm");
+  geometry_ = static_cast<Geometry>(options.choice("geometry"));
+  criterion_ = static_cast<Criterion>(options.choice("criterion"));
+  modulus_ = materials_.front().lambda - materials_.front().mu;
+  const bool extend = options.choice("surface") == static_cast<int>(Surface::extend);
+  pressure_.assign(at(hood_.points), 0.0);
+  factor_.assign(at(hood_.points), 1.0);
+  for (std::int64_t i = 0; extend && i < hood_.points; ++i)
+    if (hood_.count(i) > 0)
+      factor_[at(i)] = static_cast<double>(lattice_.neighbours) / hood_.count(i);
+}
+
+// F_c = 2 R sigma/sqrt(3) is exact across a close-packed row; along it the same F_c is 2/3 of the strength.
+std::vector<double> VolumeCompensatedParticles::limits(const Body& body) const {
+  const ParameterSet& options = body.group("vcpm");
+  const double strength = options.real("strength"), limit = options.real("limit");
+  const auto criterion = static_cast<Criterion>(options.choice("criterion"));
+  if (strength > 0 && limit > 0) {
+    throw Error(CLEAVE_BAD_ARGUMENT, text("group vcpm of ", body.label(), " has strength = ",
+                                          strength, " and limit = ", limit, "; give one of them"));
+  }
+  if (limit > 0) return {limit};
+  if (!(strength > 0)) return {std::numeric_limits<double>::infinity()};
+  if (criterion == Criterion::strain) return {strength / materials_.front().E};
+  if (criterion == Criterion::force && dimension_ == 2)
+    return {lattice_.spacing * strength / std::sqrt(3.0)};
+  throw Error(CLEAVE_MISSING_PARAMETER,
+              text("group vcpm of ", body.label(), ": criterion '",
+                   criterion == Criterion::force ? "force" : "energy",
+                   "' does not follow from strength = ", strength, " [Pa]",
+                   dimension_ == 3 ? " in space, where it depends on the direction" : "",
+                   "; give limit, or use criterion 'strain'"));
+}
+
+// (sum_p w dL/2)^2 <= n sum_p w^2 dL^2/4, so springs of that stiffness bound the volume terms.
+void VolumeCompensatedParticles::find_rates(const Body& body, std::span<double> rates) const {
+  const double T = std::fmax(modulus_, 0.0);
+  const auto volume_part = [&](std::int64_t i) {
+    return 0.25 * lattice_.cell * T * factor_[at(i)] * factor_[at(i)] * hood_.count(i);
+  };
+  const auto weight = [&](std::int64_t i, std::int64_t p) {
+    const double L = hood_.length(i, p);
+    const Shell& s = lattice_.shell(L);
+    return L * (0.5 * s.stiffness + s.weight * s.weight * (volume_part(i) + volume_part(p)));
+  };
+  pair_rates(body, weight, rates);
+}
+
+VolumeCompensatedParticles::Bond VolumeCompensatedParticles::bond(const Body& body, std::int64_t i,
+                                                                  std::int64_t p) const {
+  Bond b;
+  const Vec<3> X = difference<3>(hood_.X, i, p);
+  const double L = std::sqrt(dot(X, X));
+  b.shell = &lattice_.shell(L);
+  if (geometry_ == Geometry::linear) {
+    for (int k = 0; k < 3; ++k) b.direction[k] = X[k] / L;
+    b.elongation = dot(difference<3>(body.point.u, i, p), b.direction);
+    return b;
+  }
+  const Vec<3> x = difference<3>(body.point.x, i, p);
+  const double l = std::sqrt(dot(x, x));
+  b.elongation = l - L;
+  if (l > 0)
+    for (int k = 0; k < 3; ++k) b.direction[k] = x[k] / l;
+  return b;
+}
+
+double VolumeCompensatedParticles::dilatation(const Body& body, std::int64_t i) const {
+  double sum = 0;
+  for_carrying(i, [&](std::int32_t p, std::int32_t) {
+    const Bond b = bond(body, i, p);
+    sum += 0.5 * b.shell->weight * b.elongation;
+  });
+  return factor_[at(i)] * sum;
+}
+
+double VolumeCompensatedParticles::pressure(std::int64_t i, double dilatation) const {
+  return 0.5 * lattice_.cell * modulus_ * factor_[at(i)] * dilatation;
+}
+
+void VolumeCompensatedParticles::find_pressures(const Body& body, ThreadTeam& team) {
+  for_blocks(team, hood_.points, [&](std::int64_t, std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i) pressure_[at(i)] = pressure(i, dilatation(body, i));
+  });
+}
+
+double VolumeCompensatedParticles::force(const Bond& b, std::int64_t i, std::int64_t p) const {
+  return 0.5 * b.shell->stiffness * b.elongation +
+         b.shell->weight * (pressure_[at(i)] + pressure_[at(p)]);
+}
+
+double VolumeCompensatedParticles::severity(const Body& body, std::int64_t i,
+                                            std::int64_t p) const {
+  const Bond b = bond(body, i, p);
+  if (criterion_ == Criterion::strain) return b.elongation / hood_.length(i, p);
+  const double F = force(b, i, p);
+  if (criterion_ == Criterion::force) return F;
+  return F > 0 && b.elongation > 0 ? 0.5 * F * b.elongation : 0.0;
+}
+
+void VolumeCompensatedParticles::flag_points(Body& body, ThreadTeam& team,
+                                             std::vector<char>& flag) {
+  find_pressures(body, team);
+  for_blocks(team, hood_.points, [&](std::int64_t, std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i) {
+      bool candidate = false;
+      for (auto b = hood_.upper(i); b < hood_.last(i) && !candidate; ++b) {
+        const std::int32_t p = hood_.neighbour(b);
+        candidate = damage_.intact(b) && severity(body, i, p) > damage_.limit(i, p);
+      }
+      flag[at(i)] = candidate ? 1 : 0;
+    }
+  });
+}
+
+void VolumeCompensatedParticles::act(Body& body, ThreadTeam& team) {
+  find_pressures(body, team);
+  for_blocks(team, hood_.points, [&](std::int64_t, std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i) {
+      Vec<3> sum;
+      double springs = 0, theta = 0;
+      for_carrying(i, [&](std::int32_t p, std::int32_t) {
+        const Bond b = bond(body, i, p);
+        const double F = force(b, i, p);
+        springs += 0.125 * b.shell->stiffness * b.elongation * b.elongation;
+        theta += 0.5 * b.shell->weight * b.elongation;
+        for (int k = 0; k < 3; ++k) sum[k] += F * b.direction[k];
+      });
+      theta *= factor_[at(i)];
+      for (int k = 0; k < 3; ++k) body.point.internal[kVector * i + k] = sum[k];
+      body.point.energy[i] = springs / lattice_.cell + 0.5 * modulus_ * theta * theta;
+    }
+  });
+}
+
+// The energy of the cell; its bonds take dU/d(dL) = k dL/4 + w pressure from it.
+peridynamics::PointEnergy VolumeCompensatedParticles::point_energy(const Body& body, std::int64_t i,
+                                                                   int) const {
+  const double theta = dilatation(body, i), q = pressure(i, theta);
+  peridynamics::PointEnergy sum;
+  sum.energy = 0.5 * lattice_.cell * modulus_ * theta * theta;
+  for_carrying(i, [&](std::int32_t p, std::int32_t) {
+    const Bond b = bond(body, i, p);
+    const double k = b.shell->stiffness, rate = dot(difference<3>(body.point.v, i, p), b.direction);
+    sum.energy += 0.125 * k * b.elongation * b.elongation;
+    sum.rate += (0.25 * k * b.elongation + b.shell->weight * q) * rate;
+  });
+  return sum;
+}
+
+// P = dU_cell/dF / V
+Mat<3> VolumeCompensatedParticles::point_stress(const Body& body, std::int64_t i, int) const {
+  Mat<3> stress;
+  const double q = pressure(i, dilatation(body, i));
+  for_carrying(i, [&](std::int32_t p, std::int32_t) {
+    const Bond b = bond(body, i, p);
+    Vec<3> pull = b.direction;
+    const double F = 0.25 * b.shell->stiffness * b.elongation + b.shell->weight * q;
+    for (int k = 0; k < 3; ++k) pull[k] *= F / lattice_.cell;
+    add_dyad(stress, pull, difference<3>(hood_.X, i, p));
+  });
+  return stress;
+}
+
+bool VolumeCompensatedParticles::derive(const Body& body, std::string_view field,
+                                        std::int64_t first, std::int64_t last,
+                                        double* values) const {
+  if (field != "bond_force") return Peridynamic::derive(body, field, first, last, values);
+  hood_.for_bonds(
+      first, last, [&](std::int32_t number, std::int64_t i, std::int32_t p, std::int32_t half) {
+        values[number - first] = damage_.intact(half) ? force(bond(body, i, p), i, p) : 0.0;
+      });
+  return true;
+}
+
+std::int64_t VolumeCompensatedParticles::bytes() const {
+  return Peridynamic::bytes() +
+         static_cast<std::int64_t>((factor_.capacity() + pressure_.capacity()) * sizeof(double));
+}
+
+}  // namespace cleave::vcpm
