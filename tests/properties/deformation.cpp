@@ -11,7 +11,7 @@ class Deformation : public testing::TestWithParam<Case> {
   static constexpr double kSpacing = 0.01;
   int dimension() const { return dimension_of(GetParam()); }
   SimplexMesh mesh(double jitter = 0.15) const {
-    return patch(dimension(), dimension() == 2 ? 6 : 3, kSpacing, jitter, 7);
+    return solid(GetParam(), dimension() == 2 ? 6 : 3, kSpacing, jitter, 7);
   }
 
   // u = G X + b

@@ -13,7 +13,7 @@ class Fracture : public testing::TestWithParam<Case> {
  protected:
   SimplexMesh mesh() const {
     const int d = dimension_of(GetParam());
-    return patch(d, d == 2 ? 10 : 7, kSpacing, 0.15, 11);
+    return solid(GetParam(), d == 2 ? 10 : 7, kSpacing, 0.15, 11);
   }
   // Pulled apart along x by its initial velocity.
   void pull(Model& model, double speed) const {
@@ -99,8 +99,8 @@ TEST_P(Fracture, LedgerClosesWithDeletionsViscosityAndStabilisation) {
       EXPECT_GT(coarse / fine, 1.5) << form;
       continue;
     }
-    // Measured 3e-7 to 5e-7; peridynamics, which has no viscosity and more bonds, 5e-6 to 9e-6.
-    EXPECT_LT(fine, peridynamic(GetParam().formulation) ? 2e-5 : 2e-6) << form;
+    // Measured 3e-7 to 5e-7; interactions, which have no viscosity, 5e-6 to 1.3e-5.
+    EXPECT_LT(fine, interacts(GetParam().formulation) ? 2e-5 : 2e-6) << form;
     EXPECT_GT(coarse / fine, 2.5) << form;  // second order: measured 2.9 to 4.0
   }
 }

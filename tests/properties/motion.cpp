@@ -15,7 +15,7 @@ class Free {
   Free(const Case& c, const std::vector<Setting>& settings, double speed, int threads = 1,
        double scale_length = 1, double scale_time = 1, double scale_mass = 1) {
     const int d = dimension_of(c);
-    mesh = patch(d, d == 2 ? 10 : 7, kSpacing * scale_length, 0.15, 11);
+    mesh = solid(c, d == 2 ? 10 : 7, kSpacing * scale_length, 0.15, 11);
     model.add(c, mesh, settings);
     if (scale_mass != 1 || scale_length != 1 || scale_time != 1) {
       model.rescale_material(law_name(c.material).c_str(), scale_length, scale_time, scale_mass);

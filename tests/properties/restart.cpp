@@ -11,7 +11,7 @@ class Restart : public testing::TestWithParam<Case> {
  protected:
   SimplexMesh mesh() const {
     const int d = dimension_of(GetParam());
-    return patch(d, d == 2 ? 10 : 7, kSpacing, 0.15, 11);
+    return solid(GetParam(), d == 2 ? 10 : 7, kSpacing, 0.15, 11);
   }
   void build(Model& model) const {
     model.add(GetParam(), mesh(),

@@ -72,9 +72,22 @@ inline bool peridynamic(int32_t formulation) {
          formulation == CLEAVE_FORMULATION_lps;
 }
 
-// Critical strain of tests that break bonds. The stable step of peridynamics is shorter, so that less
+// A patch, moved by up to jitter * h if the formulation takes any points, else a lattice that it takes.
+inline SimplexMesh solid(const Case& c, int cells, double h, double jitter, unsigned seed) {
+  const int d = dimension_of(c);
+  if (c.formulation != CLEAVE_FORMULATION_vcpm) return patch(d, cells, h, jitter, seed);
+  return d == 2 ? triangular_lattice(cells + 1, cells + 1, h, 0.0, seed)
+                : patch(3, cells, h, 0.0, seed);
+}
+
+// Bonds that pull, without a stress at points.
+inline bool interacts(int32_t formulation) {
+  return peridynamic(formulation) || formulation == CLEAVE_FORMULATION_vcpm;
+}
+
+// Critical strain of tests that break bonds. The stable step of interactions is shorter, so that less
 // happens in as many steps.
-inline double breaking_strain(const Case& c) { return peridynamic(c.formulation) ? 0.012 : 0.02; }
+inline double breaking_strain(const Case& c) { return interacts(c.formulation) ? 0.012 : 0.02; }
 
 // What a formulation needs and cannot guess: kernel methods their radius, peridynamics its horizon, here
 // 1.75 times the mean spacing of the mesh. cpd keeps momentum and energy with conservative weights only.
@@ -288,7 +301,7 @@ inline bool offered(int32_t material, int32_t kinematics) {
 // Whether the formulation can be set up with the law: some take elastic laws only.
 inline bool combines(const Case& c) {
   Model model;
-  model.add(c, patch(dimension_of(c), 3, 1.0, 0.1, 1));
+  model.add(c, solid(c, 3, 1.0, 0.1, 1));
   return cleave_model_setup(model) == CLEAVE_OK;
 }
 
@@ -326,7 +339,7 @@ inline bool takes(const Case& c, const std::string& group) {
   for (const auto& s : examples) {
     if (s.group == group) settings.push_back(s);
   }
-  model.add(c, patch(dimension_of(c), 2, 1.0, 0.1, 1), settings);
+  model.add(c, solid(c, 3, 1.0, 0.1, 1), settings);
   return cleave_model_setup(model) == CLEAVE_OK;
 }
 

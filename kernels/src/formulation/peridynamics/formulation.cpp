@@ -205,7 +205,7 @@ double Peridynamic::severity(const Body& body, std::int64_t i, std::int64_t p) c
 
 double Peridynamic::lay_out(Body& body) { return body.group("peridynamics").real("horizon"); }
 
-std::vector<double> Peridynamic::limits(const Body& body) const {
+std::vector<double> Peridynamic::limits(const Body& body) {
   return critical_stretches(body, materials_, reach());
 }
 

@@ -54,7 +54,7 @@ class Peridynamic : public Formulation {
   // What bonds reach [m]; before that, volumes of particles where the formulation says them.
   virtual double lay_out(Body& body);
   // Limit of the severity of bonds of each material; infinite: they do not break.
-  virtual std::vector<double> limits(const Body& body) const;
+  virtual std::vector<double> limits(const Body& body);
   // Constants and weights, after the neighbourhood is known. Sets the interactions besides bonds.
   virtual void prepare(Body& body) = 0;
   // Bounds of the row sums of M^-1 K for each point, the largest of which is above its eigenvalues [s-2].

@@ -36,8 +36,9 @@ inline constexpr std::array kVcpmParameters = {
                    "do not break",
                    "[VCPM strength]"),
     real_parameter("limit", "1", kNotNegative, 0.0,
-                   "limit of the criterion: force [N], strain [1] or energy [J]; in the plane a "
-                   "metre thick; 0: from strength, or bonds do not break",
+                   "limit of the criterion: force [N], strain [1] or energy [J]; in the plane of a "
+                   "metre of thickness; 0: from strength or from group fracture, or bonds do not "
+                   "break",
                    "[VCPM strength]"),
 };
 

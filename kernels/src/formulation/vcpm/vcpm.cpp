@@ -1,8 +1,10 @@
 #include "formulation/vcpm/vcpm.hpp"
 
+#include <array>
 #include <cmath>
 #include <limits>
 
+#include "formulation/cbm/parameters.hpp"
 #include "formulation/common/unused_groups.hpp"
 
 namespace cleave::vcpm {
@@ -13,11 +15,23 @@ constexpr double kOffLattice = 1e-4;  // of the length of a bond
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
+// The limit that group fracture gives.
+std::vector<double> given_strain(const Body& body) {
+  const ParameterSet& options = body.group("fracture");
+  if (options.choice("criterion") == static_cast<int>(cbm::Criterion::none))
+    return {std::numeric_limits<double>::infinity()};
+  const double strain = options.real("critical_strain");
+  if (strain > 0 && !(options.real("Gf") > 0)) return {strain};
+  throw Error(CLEAVE_UNSUPPORTED,
+              text("group fracture of ", body.label(),
+                   ": vcpm has no relation to Gf; give critical_strain > 0 alone, or strength or "
+                   "limit in group vcpm"));
+}
+
 }  // namespace
 
 void VolumeCompensatedParticles::setup(Body& body, ThreadTeam& team) {
   refuse_group(body, "peridynamics", "bonds reach as far as the lattice says");
-  refuse_group(body, "fracture", "limits of bonds stand in group vcpm");
   Peridynamic::setup(body, team);
 }
 
@@ -36,26 +50,38 @@ double VolumeCompensatedParticles::lay_out(Body& body) {
 }
 
 void VolumeCompensatedParticles::check_bonds(const Body& body) const {
-  hood_.for_bonds(
-      0, hood_.bonds(), [&](std::int32_t, std::int64_t i, std::int32_t p, std::int32_t) {
-        const double length = hood_.length(i, p), due = lattice_.shell(length).length;
-        if (std::fabs(length - due) <= kOffLattice * due) return;
+  const std::string due = text("lattice ", lattice_name(lattice_.kind),
+                               " with nearest neighbours at ", lattice_.spacing, " [m]");
+  const std::string remedy = "; vcpm needs all particles on one lattice, as &lattice makes them";
+  for (std::int64_t i = 0; i < hood_.points; ++i) {
+    std::array<std::int32_t, 2> number{};
+    for (auto b = hood_.first(i); b < hood_.last(i); ++b) {
+      const std::int32_t p = hood_.neighbour(b);
+      const double length = hood_.length(i, p);
+      const Shell& s = lattice_.shell(length);
+      if (std::fabs(length - s.length) > kOffLattice * s.length) {
         throw Error(
             CLEAVE_BAD_ARGUMENT,
             text(body.label(), ": ", body.particle_label(i), " and particle ", body.number(p),
-                 " are ", length, " [m] apart; lattice ", lattice_name(lattice_.kind),
-                 " with nearest neighbours at ", lattice_.spacing, " [m] has bonds of ",
+                 " are ", length, " [m] apart; ", due, " has bonds of ",
                  lattice_.shells.front().length,
                  lattice_.shells.size() > 1 ? text(" and ", lattice_.shells.back().length) : "",
-                 " [m]; vcpm needs all particles on one lattice, as &lattice makes them"));
-      });
+                 " [m]", remedy));
+      }
+      if (++number[static_cast<std::size_t>(&s - lattice_.shells.data())] > s.number) {
+        throw Error(
+            CLEAVE_BAD_ARGUMENT,
+            text(body.label(), ": ", body.particle_label(i), " has more than ", s.number,
+                 " neighbours at ", s.length, " [m], which is all that ", due, " has", remedy));
+      }
+    }
+  }
 }
 
 void VolumeCompensatedParticles::prepare(Body& body) {
   check_bonds(body);
   const ParameterSet& options = body.group("vcpm");
   geometry_ = static_cast<Geometry>(options.choice("geometry"));
-  criterion_ = static_cast<Criterion>(options.choice("criterion"));
   modulus_ = materials_.front().lambda - materials_.front().mu;
   const bool extend = options.choice("surface") == static_cast<int>(Surface::extend);
   pressure_.assign(at(hood_.points), 0.0);
@@ -66,22 +92,32 @@ void VolumeCompensatedParticles::prepare(Body& body) {
 }
 
 // F_c = 2 R sigma/sqrt(3) is exact across a close-packed row; along it the same F_c is 2/3 of the strength.
-std::vector<double> VolumeCompensatedParticles::limits(const Body& body) const {
+std::vector<double> VolumeCompensatedParticles::limits(const Body& body) {
   const ParameterSet& options = body.group("vcpm");
   const double strength = options.real("strength"), limit = options.real("limit");
-  const auto criterion = static_cast<Criterion>(options.choice("criterion"));
+  criterion_ = static_cast<Criterion>(options.choice("criterion"));
+  if (body.group("fracture").any_given()) {
+    if (strength > 0 || limit > 0) {
+      throw Error(CLEAVE_BAD_ARGUMENT,
+                  text(body.label(),
+                       " has limits of its bonds in group fracture and in group vcpm; "
+                       "give one of them"));
+    }
+    criterion_ = Criterion::strain;
+    return given_strain(body);
+  }
   if (strength > 0 && limit > 0) {
     throw Error(CLEAVE_BAD_ARGUMENT, text("group vcpm of ", body.label(), " has strength = ",
                                           strength, " and limit = ", limit, "; give one of them"));
   }
   if (limit > 0) return {limit};
   if (!(strength > 0)) return {std::numeric_limits<double>::infinity()};
-  if (criterion == Criterion::strain) return {strength / materials_.front().E};
-  if (criterion == Criterion::force && dimension_ == 2)
+  if (criterion_ == Criterion::strain) return {strength / materials_.front().E};
+  if (criterion_ == Criterion::force && dimension_ == 2)
     return {lattice_.spacing * strength / std::sqrt(3.0)};
   throw Error(CLEAVE_MISSING_PARAMETER,
               text("group vcpm of ", body.label(), ": criterion '",
-                   criterion == Criterion::force ? "force" : "energy",
+                   criterion_ == Criterion::force ? "force" : "energy",
                    "' does not follow from strength = ", strength, " [Pa]",
                    dimension_ == 3 ? " in space, where it depends on the direction" : "",
                    "; give limit, or use criterion 'strain'"));

@@ -22,7 +22,7 @@ class VolumeCompensatedParticles final : public peridynamics::Peridynamic {
  private:
   double lay_out(Body& body) override;
   void prepare(Body& body) override;
-  std::vector<double> limits(const Body& body) const override;
+  std::vector<double> limits(const Body& body) override;
   void find_rates(const Body& body, std::span<double> rates) const override;
   void flag_points(Body& body, ThreadTeam& team, std::vector<char>& flag) override;
   double severity(const Body& body, std::int64_t i, std::int64_t p) const override;
