@@ -34,7 +34,7 @@ TEST(PeridynamicLattice, SharedShapesGiveTheForcesOfACloud) {
     for (const double reach : {1.75, 2.4, 3.015})
       for (const std::string form : {"paper", "signed"})
         for (const int every : {0, 400, 6}) {
-          if (reach > 3 && every == 6) continue;  // slow in the cloud
+          if (reach > 3 && (every == 6 || (every > 0 && nx != 9))) continue;  // slow in the cloud
           const Cloud cloud = broken_block(nx, ny, nz, dx);
           const auto u = random_field(cloud, 0.4 * dx, 3);
           std::vector<double> f[2];
