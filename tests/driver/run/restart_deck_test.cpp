@@ -20,6 +20,7 @@ const std::string kEveryGroup =
     "&mesh name='read' file='plate.msh' /\n"
     "&lattice type='square' spacing=1 size=4,3,0 /\n"
     "&points name='cloud' file='cloud.csv' /\n&notch lower=3,2 /\n"
+    "&region set='left' material='unit' /\n"
     "&body name='plate' kinematics='plane_stress' material='unit' /\n"
     "&material name='unit' law='svk' E=1 nu=0.25 rho=1 /\n"
     "&material name='hard' law='svk' E=2 nu=0.25 rho=1 /\n"

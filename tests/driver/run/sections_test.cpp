@@ -115,6 +115,35 @@ TEST_F(SectionRun, PeridynamicReactionIsThatOfTheBar) {
   }
 }
 
+// A load-displacement curve with bonds that break: the same bytes with two threads, and from the middle on.
+TEST_F(SectionRun, PeridynamicLoadCurveSurvivesARestart) {
+  namespace fs = std::filesystem;
+  for (const std::string method : {"bond_pd", "cpd", "lps"}) {
+    const std::string plate =
+        gripped(method,
+                "&static increments=3 method='relaxation' tolerance=1e-5 /\n"
+                "&precrack points=18,-1,18,5.2 /\n&fracture critical_strain=0.0015 /\n"
+                "&history every_steps=1 /\n&checkpoint every_steps=1 keep=20 /\n");
+    const std::string whole = method, cut = method + "cut";
+    ASSERT_EQ(run("mode='static' t_end=5", plate, whole), 0);
+    const auto h = read_history(path(whole + "/case.history.csv"));
+    EXPECT_GT(h.at("broken").back(), 10) << method;
+    for (std::size_t n = 1; n < h.at("time").size(); ++n)
+      EXPECT_NEAR(h.at("section_middle_force_x")[n] / h.at("reaction_head_x")[n], 1, 1e-3);
+    fs::create_directories(path(cut));
+    const char* const files[] = {"case.exo", "case.history.nc", "case.history.csv",
+                                 "case.events.nc"};
+    for (const char* file : files) fs::copy(path(whole) + "/" + file, path(cut));
+    fs::copy(path(whole + "/case.1.checkpoint.nc"), path(cut));
+    RunOptions options = quiet;
+    options.threads = 2;
+    ASSERT_EQ(restart_run(path(cut), "", options), 0);
+    for (const char* file : files)
+      EXPECT_EQ(file_bytes(path(cut) + "/" + file), file_bytes(path(whole) + "/" + file))
+          << method << ' ' << file;
+  }
+}
+
 // The reactions are what moves the body: m dv = (R_n + R_n+1) dt/2 of every step.
 TEST_F(SectionRun, PeridynamicReactionsMoveTheBody) {
   for (const std::string method : {"bond_pd", "cpd", "lps"}) {

@@ -70,10 +70,8 @@ void ContinuumKinematicsPeridynamics::prepare(Body& body) {
   expect_workers(1);
   if (any(&Constants::three)) {
     sums_.assign(static_cast<std::size_t>(4 * hood_.points), 0.0);
-    damaged_.reserve(left_.size());
     const Lattice lattice = use_lattice_ ? find_lattice(hood_) : Lattice{};
-    if (!lattice.found() || !lattice_.setup(hood_, lattice, signed_volume_, conservative_))
-      cloud_.setup(hood_);
+    if (!lattice.found() || !lattice_.setup(hood_, lattice, signed_volume_)) cloud_.setup(hood_);
   }
 }
 
@@ -207,27 +205,15 @@ void ContinuumKinematicsPeridynamics::add_triangles(Body& body, ThreadTeam& team
   });
 }
 
-// All as if every bond carried, then points with a broken bond by themselves; conservative weights know of
-// broken bonds.                                                                        [PD three, 13]
+// In a cloud with the paper's weights all as if every bond carried, then points with a broken bond by themselves;
+// elsewhere the sums know of broken bonds.                                                                        [PD three, 13]
 void ContinuumKinematicsPeridynamics::add_tetrahedra(Body& body, ThreadTeam& team) {
-  if (lattice_.active() && conservative_) {
-    lattice_.sum(body.point.u, three_.data(), team, sums_.data());
-  } else if (lattice_.active()) {
-    lattice_.sum(body.point.u, nullptr, team, sums_.data());
-    damaged_.clear();
-    for (std::int64_t i = 0; i < hood_.points; ++i)
-      if (!damage_.whole(i)) damaged_.push_back(static_cast<std::int32_t>(i));
-    const auto count = static_cast<std::int64_t>(damaged_.size());
-    team.for_blocks((count + 7) / 8, [&](std::int64_t block, int worker) {
-      const auto first = static_cast<std::size_t>(8 * block);
-      const std::span<const std::int32_t> points(damaged_.data() + first,
-                                                 std::min<std::size_t>(8, damaged_.size() - first));
-      lattice_.sum_by_itself(hood_, damage_, points, body.point.u, worker, sums_.data());
-    });
+  const double* weight = conservative_ ? three_.data() : nullptr;
+  if (lattice_.active()) {
+    lattice_.sum(body.point.u, weight, team, sums_.data());
   } else {
-    cloud_.sum(hood_, damage_,
-               {body.point.x, signed_volume_, conservative_ ? three_.data() : nullptr}, team,
-               scratch_, sums_.data());
+    cloud_.sum(hood_, damage_, {body.point.x, signed_volume_, weight}, team, scratch_,
+               sums_.data());
   }
   constexpr std::int64_t kSmall = 64;  // points: those at cracks are dear
   team.for_blocks((hood_.points + kSmall - 1) / kSmall, [&](std::int64_t block, int worker) {

@@ -24,7 +24,7 @@ class ContinuumKinematicsPeridynamics final : public peridynamics::Peridynamic {
   void find_rates(const Body& body, std::span<double> rates) const override;
   void expect_workers(int workers) override;
   void reconnect(std::int64_t i) override {
-    if (conservative_ && lattice_.active()) lattice_.connect(hood_, damage_, i);
+    if (lattice_.active()) lattice_.connect(hood_, damage_, i);
   }
   void act(Body& body, ThreadTeam& team) override;
   peridynamics::PointEnergy point_energy(const Body& body, std::int64_t i,
@@ -61,11 +61,10 @@ class ContinuumKinematicsPeridynamics final : public peridynamics::Peridynamic {
   std::vector<Constants> constants_;  // of each material
   peridynamics::HoodVolume hood_form_ = peridynamics::HoodVolume::sum;
   bool conservative_ = false, signed_volume_ = false;
-  double full_count_ = 0;              // neighbours of a full lattice neighbourhood, form sphere
-  std::vector<HoodNumbers> numbers_;   // until set-up is done
-  std::vector<double> two_, three_;    // (n) C2 v V_H^2/N2u, C3 v V_H^3/N3u
-  std::vector<double> sums_;           // (4,n) of the tetrahedra
-  std::vector<std::int32_t> damaged_;  // points with a broken bond, lattices only
+  double full_count_ = 0;             // neighbours of a full lattice neighbourhood, form sphere
+  std::vector<HoodNumbers> numbers_;  // until set-up is done
+  std::vector<double> two_, three_;   // (n) C2 v V_H^2/N2u, C3 v V_H^3/N3u
+  std::vector<double> sums_;          // (4,n) of the tetrahedra
   CloudCliques cloud_;
   LatticeCliques lattice_;                    // active: instead of cloud_
   mutable std::vector<StarScratch> scratch_;  // of each worker

@@ -49,7 +49,7 @@ std::vector<Cell> cells_ahead(std::int32_t reach, double limit) {
 }  // namespace
 
 bool LatticeCliques::setup(const peridynamics::Neighbourhood& hood, const Lattice& lattice,
-                           bool signed_volume, bool weighed) {
+                           bool signed_volume) {
   *this = {};
   spacing_ = lattice.spacing;
   signed_volume_ = signed_volume;
@@ -79,7 +79,7 @@ bool LatticeCliques::setup(const peridynamics::Neighbourhood& hood, const Lattic
     *this = {};
     return false;
   }
-  if (weighed) bonds_.setup(shape_, reach_, ahead_.members, ahead_.pairs, ahead_.thirds, limit);
+  bonds_.setup(shape_, reach_, ahead_.members, ahead_.pairs, ahead_.thirds, limit);
   make_tiles();
   return true;
 }
@@ -269,7 +269,6 @@ void LatticeCliques::sum_tile(Tile& tile, const double* u, const double* weight,
         if (what == kEmpty) continue;
         const std::int64_t row = s * (kMiddles + 2 * reach_) + m + reach_;
         const bool damaged =
-            weight != nullptr &&
             bonds_.look_up({first, tile.middle + m, tile.slow + s}, scratch.carries.data());
         kernels.eight(shapes, arrays, row * width_ + reach_ + first, what == kFull,
                       scratch.bench.data(), damaged ? scratch.carries.data() : nullptr);
@@ -284,7 +283,7 @@ void LatticeCliques::expect_workers(int workers) {
     s.weight.assign(tiles_.front().e.size(), 0.0);
     s.bench.assign(72 * ahead_.members.size(), 0.0);
     s.carries.assign(bonds_.count(), 0xff);
-    s.around.assign(32 * (around_.members.size() + 1), 0.0);
+    s.around.assign(32 * around_.members.size(), 0.0);
   }
 }
 
@@ -357,22 +356,6 @@ void LatticeCliques::stress_sums(const peridynamics::Neighbourhood& hood,
       for (std::size_t c = 0; c < 3; ++c)
         sums[l](static_cast<int>(axis_[r]), static_cast<int>(axis_[c])) =
             volume * found[kEight * (3 * r + c) + l];
-}
-
-void LatticeCliques::sum_by_itself(const peridynamics::Neighbourhood& hood,
-                                   const peridynamics::Damage& damage,
-                                   std::span<const std::int32_t> points, const double* u,
-                                   int worker, double* sums) {
-  AlignedReals& bench = scratch_[static_cast<std::size_t>(worker)].around;
-  lay_around(hood, damage, points, u, bench);
-  double* found = bench.data() + 32 * around_.members.size();
-  CLEAVE_KERNELS(kLatticeKernels).chosen().around(shapes_of(around_), bench.data(), found);
-  const double area = spacing_ * spacing_;
-  for (std::size_t l = 0; l < points.size(); ++l) {
-    double* to = sums + 4 * static_cast<std::int64_t>(points[l]);
-    for (std::size_t k = 0; k < 3; ++k) to[axis_[k]] = area * found[kEight * k + l];
-    to[3] = 0.5 * area * spacing_ * found[kEight * 3 + l];
-  }
 }
 
 std::int64_t LatticeCliques::bytes() const {

@@ -3,8 +3,7 @@
 //
 // The lattice is cut into fixed tiles. A tile sums its tetrahedra in arrays of its own, which reach as far
 // as the horizon, and each point then takes the parts of all tiles in their order: the same bits for any
-// number of threads. In plain sums all bonds count as intact: points at cracks are summed by themselves. Weighed
-// sums know of broken bonds.
+// number of threads.
 #pragma once
 
 #include <array>
@@ -24,25 +23,21 @@ namespace cleave::cpd {
 
 class LatticeCliques {
  public:
-  // False where the list of shapes would be too long; then nothing is kept. weighed: sums will be.
-  bool setup(const peridynamics::Neighbourhood& hood, const Lattice& lattice, bool signed_volume,
-             bool weighed);
+  // False where the list of shapes would be too long; then nothing is kept.
+  bool setup(const peridynamics::Neighbourhood& hood, const Lattice& lattice, bool signed_volume);
   bool active() const { return !tiles_.empty(); }
   // Tetrahedra that a point with all its neighbours is the first of.
   std::int64_t shapes() const { return static_cast<std::int64_t>(ahead_.thirds.size()); }
 
   void expect_workers(int workers);
-  // [in] u (3,n) displacement [m]   [out] sums (4,n): - sum of g G_i [m2], sum of 1/2 |V| g^2 [m3]
+  // [in] u (3,n) displacement [m]   [out] sums (4,n): - sum of g G_i [m2], sum of 1/2 |V| g^2 [m3], of the
+  // tetrahedra whose three bonds at the point carry
   // weight (n): conservative weights W; then the sums are weighed, and of the energy each member has a quarter,
   // as those of CloudCliques. NULL: plain.
   void sum(const double* u, const double* weight, ThreadTeam& team, double* sums);
-  // For weighed sums: which bonds of a point carry.
+  // Which bonds of a point carry.
   void connect(const peridynamics::Neighbourhood& hood, const peridynamics::Damage& damage,
                std::int64_t i);
-  // Sets the sums of the listed points, eight or fewer, by themselves: with the bonds that carry only.
-  void sum_by_itself(const peridynamics::Neighbourhood& hood, const peridynamics::Damage& damage,
-                     std::span<const std::int32_t> points, const double* u, int worker,
-                     double* sums);
   // For the listed points, eight or fewer: sum of g (G_j (x) X_ij + ...) [m3] with the bonds that carry.  [PD stress]
   void stress_sums(const peridynamics::Neighbourhood& hood, const peridynamics::Damage& damage,
                    std::span<const std::int32_t> points, const double* u, int worker,
@@ -98,7 +93,7 @@ class LatticeCliques {
   std::vector<std::int32_t> member_at_;  // around, by cell from the point: slow, middle, fast
   std::vector<double> volume_, inverse_;
   std::int32_t largest_volume_ = 0;
-  LatticeBonds bonds_;  // for weighed sums
+  LatticeBonds bonds_;
   std::vector<Tile> tiles_;
   std::vector<Part> parts_;               // of each row, in the order of tiles
   std::vector<std::int32_t> part_begin_;  // (rows+1)

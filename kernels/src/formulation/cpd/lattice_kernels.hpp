@@ -52,15 +52,14 @@ struct LatticeKernels {
   // Eight points from `at` on; full: all members of all eight are there. bench: eight rows of eight a member,
   // on a cache line.
   // With weights the bench is a row longer for each member. carries: a byte for each member and then for each
-  // bond between two: in which of the eight it carries; NULL: all do. Only with weights.
+  // bond between two: in which of the eight it carries; NULL: all do. A tetrahedron counts for a member if the three
+  // bonds at it carry.
   void (*eight)(const Shapes&, const LatticeTile&, std::int64_t at, bool full, double* bench,
                 const std::uint8_t* carries);
-  // The sums of eight points, anywhere, from the shapes around a point of which it is the first, whatever the
-  // order of the others. bench: four rows of eight a member: its place from the point, 1 or 0: the bond to it
-  // carries, else place 0. [out] sums: four rows of eight: - sum of g G_i, sum of |V| g^2
-  void (*around)(const Shapes&, const double* bench, double* sums);
-  // The same for sum of g (G_j (x) X_ij + G_k (x) X_ik + G_l (x) X_il), nine rows of eight, row by row of the
-  // tensor. cells (3,members): X_ij of the members                                            [PD stress]
+  // sum of g (G_j (x) X_ij + G_k (x) X_ik + G_l (x) X_il) of eight points, anywhere, from the shapes around a point of
+  // which it is the first, whatever the order of the others. bench: four rows of eight a member: its place from
+  // the point, 1 or 0: the bond to it carries, else place 0. cells (3,members): X_ij of the members. [out] sums: nine
+  // rows of eight, row by row of the tensor                                                       [PD stress]
   void (*stress)(const Shapes&, const double* cells, const double* bench, double* sums);
 };
 

@@ -33,8 +33,8 @@ TEST(PeridynamicLattice, SharedShapesGiveTheForcesOfACloud) {
   for (const auto& [nx, ny, nz] : {std::array{9, 7, 5}, std::array{5, 19, 6}, std::array{4, 6, 13}})
     for (const double reach : {1.75, 2.4, 3.015})
       for (const std::string form : {"paper", "signed"})
-        for (const bool damaged : {false, true}) {
-          if (reach > 3 && damaged) continue;  // slow in the cloud
+        for (const int every : {0, 400, 6}) {
+          if (reach > 3 && (every == 6 || (every > 0 && nx != 9))) continue;  // slow in the cloud
           const Cloud cloud = broken_block(nx, ny, nz, dx);
           const auto u = random_field(cloud, 0.4 * dx, 3);
           std::vector<double> f[2];
@@ -42,7 +42,7 @@ TEST(PeridynamicLattice, SharedShapesGiveTheForcesOfACloud) {
           for (const bool lattice : {false, true}) {
             CloudBody body(CLEAVE_FORMULATION_cpd, CLEAVE_3D, cloud,
                            cpd_settings(reach * dx, lattice ? "lattice" : "never", form));
-            if (damaged) body.damage(400, 5);
+            if (every > 0) body.damage(every, 5);
             f[lattice ? 1 : 0] = body.forces(u);
             energy[lattice ? 1 : 0] = body.model.energies().elastic;
           }
