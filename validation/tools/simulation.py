@@ -6,6 +6,7 @@ import dataclasses
 import functools
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -14,6 +15,8 @@ from collections.abc import Callable
 
 from . import deck as decks
 from . import results
+
+COST = "cost.csv"                # beside the files of a run: what it took
 
 
 class RunError(Exception):
@@ -82,6 +85,11 @@ class Result:
         return results.read_table(self.path(".events.nc"))
 
     @functools.cached_property
+    def cost(self):
+        """Wall time, processor time (s) and largest memory (MB) of the run, by name."""
+        return {name: float(values[0]) for name, values in results.read_csv(self.folder / COST).items()}
+
+    @functools.cached_property
     def table(self):
         """Output of a command without a deck: columns by name, units cut off."""
         return results.read_csv(self.path(".csv"))
@@ -116,20 +124,32 @@ def _last_line(log):
     return lines[-1] if lines else ""
 
 
+def _peak_memory(pid):
+    """Largest memory of a process so far, MB; 0 where the system does not say.  What wait4 reports includes its parent's."""
+    try:
+        found = re.search(r"VmHWM:\s+(\d+) kB", pathlib.Path(f"/proc/{pid}/status").read_text(encoding="utf-8"))
+    except OSError:
+        return 0.0
+    return int(found[1]) * 1024e-6 if found else 0.0
+
+
 def _wait(process, log, label):
-    """Waits; with a label, shows the run's own status line on a terminal."""
-    live = label is not None and sys.stderr.isatty()
+    """Waits; returns processor time and largest memory.  With a label, shows the run's own status line on a terminal."""
+    live, pause, memory = label is not None and sys.stderr.isatty(), 0.01, 0.0
     while True:
-        try:
-            process.wait(timeout=1.0)
-        except subprocess.TimeoutExpired:
-            if live:
-                shown = f"{label} {_last_line(log)}"[: shutil.get_terminal_size().columns]
-                print(f"\r\033[K{shown}", end="", file=sys.stderr, flush=True)
-            continue
+        memory = max(memory, _peak_memory(process.pid))
+        ended, status, usage = os.wait4(process.pid, os.WNOHANG)
+        if ended:
+            break
         if live:
-            print("\r\033[K", end="", file=sys.stderr)
-        return process.returncode
+            shown = f"{label} {_last_line(log)}"[: shutil.get_terminal_size().columns]
+            print(f"\r\033[K{shown}", end="", file=sys.stderr, flush=True)
+        time.sleep(pause)
+        pause = min(2 * pause, 0.5)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    if live:
+        print("\r\033[K", end="", file=sys.stderr)
+    return usage.ru_utime + usage.ru_stime, memory
 
 
 def _prepare(run, case_folder, folder):
@@ -163,8 +183,10 @@ def execute(run, case_folder, folder, cleave, threads, label=None):
     with open(output, "w", encoding="utf-8") as out, open(log, "a", encoding="utf-8") as errors:
         process = subprocess.Popen([cleave, *arguments], cwd=folder, stdout=out, stderr=subprocess.STDOUT if run.deck else errors,
                                    stdin=subprocess.DEVNULL)
-        status = _wait(process, log, label)
-    if status != 0:
+        processor, memory = _wait(process, log, label)
+    if process.returncode != 0:
         end = "\n".join(log.read_text(errors="replace").splitlines()[-12:])
-        raise RunError(f"cleave ended with {status}; the end of {log}:\n{end}")
-    return Result(run, folder, time.monotonic() - started)
+        raise RunError(f"cleave ended with {process.returncode}; the end of {log}:\n{end}")
+    wall = time.monotonic() - started
+    (folder / COST).write_text(f"wall [s],processor [s],memory [MB]\n{wall:.2f},{processor:.2f},{memory:.1f}\n", encoding="utf-8")
+    return Result(run, folder, wall)

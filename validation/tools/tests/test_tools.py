@@ -7,7 +7,7 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]))
 import netCDF4  # noqa: E402
 import numpy  # noqa: E402
-from tools import cracks, curves, deck, host_code, interpolation, lattice_sums, picture, rates, results, simulation  # noqa: E402
+from tools import crack_angle, cracks, curves, deck, host_code, interpolation, lattice_sums, picture, rates, results, simulation  # noqa: E402
 
 DECK = """! a deck
 &run
@@ -95,6 +95,50 @@ class Cracks(unittest.TestCase):
         x = numpy.arange(5.0)
         self.assertEqual(cracks.path_distance(x, 0 * x, x, 0 * x), 0.0)
         self.assertEqual(cracks.path_distance(x, 0 * x, x, 0 * x + 2), 2.0)
+
+
+class CrackAngle(unittest.TestCase):
+    tip = (50.0, 20.0)
+
+    def band(self, degrees, side=1, length=40.0):
+        """A lattice around the tip; damage 1 within 1.5 of a crack of that angle, 0.3 within 4."""
+        line = numpy.arange(-60.0, 60.5)
+        offsets = numpy.stack(numpy.meshgrid(line, line, indexing="ij"), -1).reshape(-1, 2) + 0.25
+        unit = numpy.array([numpy.cos(numpy.radians(degrees)), side * numpy.sin(numpy.radians(degrees))])
+        along, across = offsets @ unit, abs(offsets @ numpy.array([-unit[1], unit[0]]))
+        inside = (along > 0) & (along < length)
+        return offsets + self.tip, numpy.where(inside & (across < 1.5), 1.0, numpy.where(inside & (across < 4), 0.3, 0.0))
+
+    def crack(self, points, damage, **frame):
+        return crack_angle.crack_points(points, damage, self.tip, 30, 1.0, **frame)
+
+    def test_known_angles_on_both_sides(self):
+        for degrees in (20, 64, 85):
+            for side in (1, -1):
+                points, damage = self.band(degrees, side)
+                crack = self.crack(points, damage, side=side)
+                self.assertAlmostEqual(crack_angle.angle(points[crack], self.tip, side=side), degrees, delta=1.5)   # measured 1.3
+                self.assertLess(self.crack(points, damage, side=-side).sum(), 6)
+
+    def test_a_notch_that_points_elsewhere(self):
+        points, damage = self.band(30)
+        crack = self.crack(points, damage, ahead=(0, 2), side=-1)
+        self.assertAlmostEqual(crack_angle.angle(points[crack], self.tip, ahead=(0, 2), side=-1), 60, delta=1.5)    # measured 0.2
+
+    def test_what_lies_beyond_or_behind_or_apart_does_not_count(self):
+        points, damage = self.band(64)
+        expected = self.crack(points, damage)
+        offsets = points - self.tip
+        for other in (numpy.hypot(*offsets.T) > 30, offsets[:, 0] < 0, offsets[:, 1] < 0, abs(offsets[:, 0] - 25) < 3):
+            numpy.testing.assert_array_equal(self.crack(points, numpy.where(other, 1.0, damage)), expected)
+        self.assertTrue(70 < expected.sum() < 100)
+        self.assertTrue(29 < crack_angle.extent(points[expected], self.tip) <= 30)
+
+    def test_too_few_points(self):
+        self.assertTrue(numpy.isnan(crack_angle.angle(numpy.zeros((2, 2)), self.tip)))
+        points, damage = self.band(64)
+        self.assertEqual(self.crack(points, 0 * damage).sum(), 0)
+        self.assertEqual(crack_angle.extent(points[:0], self.tip), 0)
 
 
 class Curves(unittest.TestCase):
@@ -196,6 +240,12 @@ class Commands(unittest.TestCase):
         run = simulation.Run("one", command=("point", "law"), inputs={"path.csv": "3,4\n"})
         result = self.execute("echo 'a [m],b'; cat path.csv; echo $#,0; echo note >&2", run)
         self.assertEqual({name: list(column) for name, column in result.table.items()}, {"a": [3, 2], "b": [4, 0]})
+
+    def test_what_a_run_took_is_kept(self):
+        cost = self.execute("echo a; i=0; while [ $i -lt 30000 ]; do i=$((i+1)); done; sleep 0.3", simulation.Run("one", command=("x",))).cost
+        self.assertGreater(cost["wall"], 0.3)
+        self.assertTrue(0.005 < cost["processor"] < cost["wall"] - 0.25)
+        self.assertTrue(0.1 < cost["memory"] < 20)                      # of a shell, not of this Python
 
     def test_a_failed_command_shows_its_message(self):
         with self.assertRaisesRegex(simulation.RunError, "ended with 2.*\n.*no such law"):

@@ -219,7 +219,7 @@ TEST(VolumeCompensatedParticles, WhatIsNoLatticeIsRefused) {
   says(said(CLEAVE_3D, ball("fcc", 2.1), {{"vcpm", "lattice", 0, "bcc"}}),
        "has more than 8 neighbours at 1 [m], which is all that lattice bcc");
   says(said(CLEAVE_3D, ball("bcc", 2.1), {{"vcpm", "lattice", 0, "fcc"}}),
-       "1.1547 [m] apart; lattice fcc with nearest neighbours at 1 [m] has bonds of 1 and 1.41421");
+       "lattice fcc with nearest neighbours at 1 [m] has bonds of 1 and 1.41421356 [m]");
   says(said(CLEAVE_3D, ball("sc", 1.1), {{"vcpm", "lattice", 0, "triangular"}}),
        "allowed there: sc, fcc, bcc");
   says(said(CLEAVE_3D, ball("sc", 3), {{"vcpm", "strength", 1.0}}),
