@@ -72,10 +72,9 @@ constexpr std::array kVcpmFields = {
 
 std::vector<FieldOwner> make_field_owners() {
   std::vector<FieldOwner> owners = {
-      {"core", kCoreFields},         {"cbm", kCbmFields},        {"tlsph", kKernelMethodFields},
-      {"nosb", kKernelMethodFields}, {"fem", kFemFields},        {"bond_pd", kPeridynamicFields},
-      {"cpd", kPeridynamicFields},   {"lps", kPeridynamicFields},
-      {"vcpm", kVcpmFields}};
+      {"core", kCoreFields},         {"cbm", kCbmFields},         {"tlsph", kKernelMethodFields},
+      {"nosb", kKernelMethodFields}, {"fem", kFemFields},         {"bond_pd", kPeridynamicFields},
+      {"cpd", kPeridynamicFields},   {"lps", kPeridynamicFields}, {"vcpm", kVcpmFields}};
   for (const auto& m : material_table()) owners.push_back({m.name, m.history});
   return owners;
 }

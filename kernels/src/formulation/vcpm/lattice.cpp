@@ -26,7 +26,7 @@ const double kRoot2 = std::sqrt(2.0), kRoot3 = std::sqrt(3.0);
 // Springs isotropic: c_ijkl = (1/V) sum k r^2 xi xi xi xi = mu (dd + dd + dd).
 const Plan& plan(LatticeChoice kind) {
   static const std::array<Plan, 4> plans = {{
-      // k_n = 4 E/(sqrt(3) (1 + nu)) does not depend on d.                             [VCPM 6]
+      // k_n = 4 E/(sqrt(3) (1 + nu)) does not depend on d.                             [VCPM lattices]
       {LatticeChoice::triangular, "triangular", kRoot3 / 2, 1.5, {1, 0}, {6, 0}, {8 / kRoot3, 0}},
       {LatticeChoice::sc, "sc", 1, 1.55, {1, kRoot2}, {6, 12}, {2, 2}},
       {LatticeChoice::fcc, "fcc", kRoot2 / 2, 1.57, {1, kRoot2}, {12, 6}, {2 * kRoot2, kRoot2 / 2}},

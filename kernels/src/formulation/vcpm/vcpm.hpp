@@ -1,5 +1,5 @@
 // The volume-compensated particle model: springs on a lattice, and for each particle an energy of the volume
-// strain of its cell, which makes Poisson's ratio free.                                [VCPM 1-13]
+// strain of its cell, which makes Poisson's ratio free.                                [VCPM bond, 13]
 #pragma once
 
 #include <vector>
@@ -38,7 +38,7 @@ class VolumeCompensatedParticles final : public peridynamics::Peridynamic {
     const Shell* shell = nullptr;
   };
   Bond bond(const Body& body, std::int64_t i, std::int64_t p) const;
-  // sum_p w_ip dL_ip/2 over the bonds that carry, times the factor of the surface      [VCPM 11]
+  // sum_p w_ip dL_ip/2 over the bonds that carry, times the factor of the surface      [VCPM bond]
   double dilatation(const Body& body, std::int64_t i) const;
   // V T/2 theta_i times the factor of the surface: what a bond takes from its end i, over w
   double pressure(std::int64_t i, double dilatation) const;
