@@ -30,6 +30,14 @@ struct StoredEnergy {
 
 inline constexpr std::int64_t kPointsAreParticles = -1;
 
+// Takes a part of the tangent stiffness: the matrix between the degrees of freedom of a few particles, symmetric,
+// (D count, D count), particle by particle.
+class StiffnessSink {
+ public:
+  virtual ~StiffnessSink() = default;
+  virtual void add(std::span<const std::int32_t> particles, const double* matrix) = 0;
+};
+
 class Formulation {
  public:
   virtual ~Formulation() = default;
@@ -57,6 +65,11 @@ class Formulation {
   // by the functions below, on the fields.
   virtual ResidentStep* resident() { return nullptr; }
 
+  // For the static solver, of a formulation that has no gradient operator: the tangent stiffness at the present
+  // positions, part by part in a fixed order; and whether the rest of the body holds a particle at all.
+  virtual bool has_stiffness() const { return false; }
+  virtual void add_stiffness(const Body&, StiffnessSink&) const {}
+  virtual bool holds(const Body&, std::int64_t) const { return true; }
   // What the static solver would miss, as a sentence; empty: nothing.
   virtual std::string static_obstacle(const Body&) const { return {}; }
 

@@ -29,7 +29,7 @@ class Newton {
         clock_(clock),
         team_(team),
         options_(options),
-        g_(*body.formulation->gradient_operator(team)),
+        g_(body.formulation->gradient_operator(team)),
         committed_(body),
         equations_(body, g_),
         displacement_(committed_.values("displacement")),
@@ -162,7 +162,7 @@ class Newton {
   Clock clock_;
   ThreadTeam& team_;
   StaticOptions options_;
-  const GradientOperator& g_;
+  const GradientOperator* g_;  // NULL: the formulation gives its stiffness itself
   Committed committed_;
   Equations equations_;
   std::vector<double> displacement_;  // (3,n) of the last accepted trial
@@ -185,10 +185,10 @@ StaticReport solve_static(cleave_model& model, double time_new, const StaticOpti
   }
   for (auto& body : model.bodies) {
     take_fields(*body);
-    if (!body->formulation->has_gradient_operator()) {
+    if (!body->formulation->has_gradient_operator() && !body->formulation->has_stiffness()) {
       throw Error(CLEAVE_UNSUPPORTED,
                   text(body->label(), ": formulation ", body->formulation->name(),
-                       " has no gradient operator to solve with"));
+                       " has no stiffness matrix to solve with; use relaxation"));
     }
     const std::string obstacle = body->formulation->static_obstacle(*body);
     if (!obstacle.empty()) {

@@ -30,10 +30,58 @@ struct Row {
   }
 };
 
+// Where an entry belongs: among the unknowns, or to a prescribed displacement.
+class Entries {
+ public:
+  Entries(const Equations& equations, Stiffness& k) : equations_(equations), k_(k) {
+    k.fix.clear();
+  }
+  std::int32_t equation(std::int32_t dof) const {
+    return equations_.of[static_cast<std::size_t>(dof)];
+  }
+  // row: number of an equation
+  void add(std::int32_t row, std::int32_t dof, double value) {
+    const std::int32_t column = equation(dof);
+    if (column >= 0) {
+      free_.emplace_back(row, column, value);
+    } else {
+      k_.fix.emplace_back(row, dof, value);
+    }
+  }
+  void finish() {
+    k_.free.resize(equations_.count, equations_.count);
+    k_.free.setFromTriplets(free_.begin(), free_.end());
+  }
+
+ private:
+  const Equations& equations_;
+  Stiffness& k_;
+  std::vector<Eigen::Triplet<double>> free_;
+};
+
+class Parts final : public StiffnessSink {
+ public:
+  Parts(Entries& entries, int dimension) : entries_(entries), dimension_(dimension) {}
+  void add(std::span<const std::int32_t> particles, const double* matrix) override {
+    const std::size_t d = static_cast<std::size_t>(dimension_), size = d * particles.size();
+    const auto dof = [&](std::size_t c) {
+      return static_cast<std::int32_t>(kVector * particles[c / d]) +
+             static_cast<std::int32_t>(c % d);
+    };
+    for (std::size_t r = 0; r < size; ++r) {
+      const std::int32_t row = entries_.equation(dof(r));
+      if (row < 0) continue;
+      for (std::size_t c = 0; c < size; ++c) entries_.add(row, dof(c), matrix[size * r + c]);
+    }
+  }
+
+ private:
+  Entries& entries_;
+  int dimension_;
+};
+
 template <int D>
-void add_row(const Row<D>& row, const Tangent<D>& tangent, double volume,
-             const Equations& equations, std::vector<Eigen::Triplet<double>>& entries,
-             std::vector<Eigen::Triplet<double>>& fixed) {
+void add_row(const Row<D>& row, const Tangent<D>& tangent, double volume, Entries& entries) {
   const std::size_t count = row.particle.size();
   for (std::size_t b = 0; b < count; ++b) {
     double column[D][D][D];  // sum_l A_jkml zeta_b,l / Omega
@@ -47,18 +95,12 @@ void add_row(const Row<D>& row, const Tangent<D>& tangent, double volume,
     for (std::size_t a = 0; a < count; ++a) {
       for (int j = 0; j < D; ++j) {
         const std::int32_t equation =
-            equations.of[static_cast<std::size_t>(kVector * row.particle[a] + j)];
+            entries.equation(static_cast<std::int32_t>(kVector * row.particle[a] + j));
         if (equation < 0) continue;
         for (int m = 0; m < D; ++m) {
           double value = 0;
           for (int k = 0; k < D; ++k) value += row.zeta[a][k] * column[j][k][m];
-          const auto dof = static_cast<std::int32_t>(kVector * row.particle[b] + m);
-          const std::int32_t other = equations.of[static_cast<std::size_t>(dof)];
-          if (other >= 0) {
-            entries.emplace_back(equation, other, value);
-          } else {
-            fixed.emplace_back(equation, dof, value);
-          }
+          entries.add(equation, static_cast<std::int32_t>(kVector * row.particle[b] + m), value);
         }
       }
     }
@@ -67,9 +109,7 @@ void add_row(const Row<D>& row, const Tangent<D>& tangent, double volume,
 
 template <int D>
 bool assemble_in(const Body& body, const GradientOperator& g, const HistoryArrays& committed,
-                 const Equations& equations, Stiffness& k) {
-  std::vector<Eigen::Triplet<double>> entries;
-  k.fix.clear();
+                 Entries& entries, double& relative_asymmetry) {
   Row<D> row;
   double largest = 0, asymmetry = 0;
   for (std::int64_t q = 0; q < body.points; ++q) {
@@ -84,22 +124,21 @@ bool assemble_in(const Body& body, const GradientOperator& g, const HistoryArray
       asymmetry = std::fmax(asymmetry, std::fabs(a(i, j, l, m) - a(l, m, i, j)));
     }
     row.take(g, q);
-    add_row<D>(row, a, g.volume[q], equations, entries, k.fix);
+    add_row<D>(row, a, g.volume[q], entries);
   }
-  k.asymmetry = largest > 0 ? asymmetry / largest : 0.0;
-  k.free.resize(equations.count, equations.count);
-  k.free.setFromTriplets(entries.begin(), entries.end());
+  relative_asymmetry = largest > 0 ? asymmetry / largest : 0.0;
   return true;
 }
 
 }  // namespace
 
-Equations::Equations(const Body& body, const GradientOperator& g)
+Equations::Equations(const Body& body, const GradientOperator* g)
     : of(static_cast<std::size_t>(kVector * body.particles), -1) {
   constexpr std::int32_t kFree = 0;
   const int d = body.dimension();
   for (std::int64_t i = 0; i < body.particles; ++i) {
-    const bool carried = !g.of_particles() || g.volume[i] > 0;
+    const bool carried =
+        g == nullptr ? body.formulation->holds(body, i) : !g->of_particles() || g->volume[i] > 0;
     for (int k = 0; k < d && carried; ++k) of[static_cast<std::size_t>(kVector * i + k)] = kFree;
   }
   for (const auto& dof : body.prescribed)
@@ -109,10 +148,20 @@ Equations::Equations(const Body& body, const GradientOperator& g)
   }
 }
 
-bool assemble(const Body& body, const GradientOperator& g, const HistoryArrays& committed,
+bool assemble(const Body& body, const GradientOperator* g, const HistoryArrays& committed,
               const Equations& equations, Stiffness& k) {
-  return body.dimension() == 2 ? assemble_in<2>(body, g, committed, equations, k)
-                               : assemble_in<3>(body, g, committed, equations, k);
+  Entries entries(equations, k);
+  k.asymmetry = 0;
+  bool known = true;
+  if (g == nullptr) {
+    Parts parts(entries, body.dimension());
+    body.formulation->add_stiffness(body, parts);
+  } else {
+    known = body.dimension() == 2 ? assemble_in<2>(body, *g, committed, entries, k.asymmetry)
+                                  : assemble_in<3>(body, *g, committed, entries, k.asymmetry);
+  }
+  if (known) entries.finish();
+  return known;
 }
 
 }  // namespace cleave

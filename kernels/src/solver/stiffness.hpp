@@ -1,5 +1,5 @@
-// The tangent stiffness of a body through its gradient operator, for degrees of freedom that are free
-// to move:  K_(a,j)(b,m) = sum_q (1/Omega_q) A^q_jkml zeta_qa,k zeta_qb,l  over all particles a, b of
+// The tangent stiffness of a body for degrees of freedom that are free to move: from the parts that its formulation
+// gives, or through its gradient operator,  K_(a,j)(b,m) = sum_q (1/Omega_q) A^q_jkml zeta_qa,k zeta_qb,l  over all particles a, b of
 // row q, the point's own particle with - sum_p zeta_qp among them.                  [FEM stiffness]
 #pragma once
 
@@ -14,7 +14,8 @@ namespace cleave {
 // Numbers of the equations: -1 for a degree of freedom that is prescribed, has no stiffness, or lies
 // out of the plane.
 struct Equations {
-  explicit Equations(const Body& body, const GradientOperator& g);
+  // g: NULL for a formulation without it.
+  Equations(const Body& body, const GradientOperator* g);
   std::vector<std::int32_t> of;  // (3,n)
   std::int64_t count = 0;
 };
@@ -27,8 +28,8 @@ struct Stiffness {
   double asymmetry = 0;                     // largest |A_ijkl - A_klij| over the largest |A_ijkl|
 };
 
-// From the present H and the committed history. False if a law has no tangent there.
-bool assemble(const Body& body, const GradientOperator& g, const HistoryArrays& committed,
+// From the present positions and the committed history. False if a law has no tangent there.
+bool assemble(const Body& body, const GradientOperator* g, const HistoryArrays& committed,
               const Equations& equations, Stiffness& k);
 
 }  // namespace cleave

@@ -15,6 +15,10 @@ class VolumeCompensatedParticles final : public peridynamics::Peridynamic {
   bool takes_regions() const override { return false; }
   void setup(Body& body, ThreadTeam& team) override;
   void rebuild(Body& body, ThreadTeam& team) override;
+  bool has_stiffness() const override { return true; }
+  void add_stiffness(const Body& body, StiffnessSink& sink) const override;
+  bool holds(const Body& body, std::int64_t i) const override;
+  std::string static_obstacle(const Body& body) const override;
   bool derive(const Body& body, std::string_view field, std::int64_t first, std::int64_t last,
               double* values) const override;
   std::int64_t bytes() const override;

@@ -1,0 +1,57 @@
+// The Hessian of the energy of all cells, part by part: each bond as a spring with what its force does when it
+// turns, and each particle's volume as one matrix of rank one over it and its neighbours, which together are
+// the published elements of ten particles.                                           [VCPM stiffness]
+#include <cmath>
+#include <vector>
+
+#include "formulation/vcpm/vcpm.hpp"
+
+namespace cleave::vcpm {
+
+std::string VolumeCompensatedParticles::static_obstacle(const Body&) const {
+  return damage_.active() ? "bonds may not break in it; give no limit, or use relaxation" : "";
+}
+
+bool VolumeCompensatedParticles::holds(const Body&, std::int64_t i) const {
+  return damage_.intact_count(i) > 0;
+}
+
+void VolumeCompensatedParticles::add_stiffness(const Body& body, StiffnessSink& sink) const {
+  const int D = dimension_;
+  const auto d = static_cast<std::size_t>(D);
+  std::vector<double> matrix(4 * d * d), slope;
+  std::vector<std::int32_t> particles;
+  for (std::int64_t i = 0; i < hood_.points; ++i) {
+    particles.assign(1, static_cast<std::int32_t>(i));
+    slope.assign(d, 0.0);  // of theta_i with the displacements
+    for_carrying(i, [&](std::int32_t p, std::int32_t) {
+      const Bond b = bond(body, i, p);
+      const double share = 0.5 * factor_[static_cast<std::size_t>(i)] * b.shell->weight;
+      for (int k = 0; k < D; ++k) slope[static_cast<std::size_t>(k)] -= share * b.direction[k];
+      for (int k = 0; k < D; ++k) slope.push_back(share * b.direction[k]);
+      particles.push_back(p);
+      if (p < i) return;
+      const double stiff = 0.5 * b.shell->stiffness;
+      const double length = hood_.length(i, p) + b.elongation;
+      const double turn =
+          geometry_ == Geometry::finite && length > 0 ? force(b, i, p) / length : 0.0;
+      for (std::size_t r = 0; r < 2 * d; ++r)
+        for (std::size_t c = 0; c < 2 * d; ++c) {
+          const int j = static_cast<int>(r % d), k = static_cast<int>(c % d);
+          const double nn = b.direction[j] * b.direction[k];
+          const double value = stiff * nn + turn * ((j == k ? 1 : 0) - nn);
+          matrix[2 * d * r + c] = (r < d) == (c < d) ? value : -value;
+        }
+      const std::int32_t ends[2] = {static_cast<std::int32_t>(i), p};
+      sink.add(ends, matrix.data());
+    });
+    const std::size_t size = slope.size();
+    std::vector<double> volume(size * size);
+    const double scale = lattice_.cell * modulus_;
+    for (std::size_t r = 0; r < size; ++r)
+      for (std::size_t c = 0; c < size; ++c) volume[size * r + c] = scale * slope[r] * slope[c];
+    if (scale != 0) sink.add(particles, volume.data());
+  }
+}
+
+}  // namespace cleave::vcpm
