@@ -1,6 +1,7 @@
 #include "formulation/cbm/block_search.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -37,6 +38,7 @@ void BlockSearch::setup(const BlockNetwork& blocks, bool active) {
   if (!active) return;
   margins_.assign(blocks.blocks.size(), {});
   slack_.assign(blocks.place.size(), 0.0F);
+  waiting_.assign(blocks.blocks.size(), 0);
   broken_.reserve(kReserve);
 }
 
@@ -56,27 +58,56 @@ void BlockSearch::start(const BlockNetwork& blocks, std::span<const double> X,
     margins_[b].scale = scale_of(blocks.blocks[b]);
     margins_[b].extent = extent;
   }
+  for (Worker& worker : workers_) worker.found.clear();
+  started_ = true;
 }
 
-void BlockSearch::moved(const BlockNetwork& blocks, const std::vector<VelocityBox>& boxes,
-                        double dt) {
-  for (std::size_t b = 0; b < margins_.size(); ++b) {
-    VelocityBox box = boxes[b];
-    for (const std::int32_t other : blocks.blocks[b].beside)
-      for (int k = 0; k < 3; ++k) {
-        box.low[k] = std::fmin(box.low[k], boxes[at(other)].low[k]);
-        box.high[k] = std::fmax(box.high[k], boxes[at(other)].high[k]);
-      }
-    double square = 0, speed = 0;
-    for (int k = 0; k < 3; ++k) {
-      const double range = box.high[k] - box.low[k];
-      if (range > 0) square += range * range;
-      speed = std::max({speed, std::fabs(box.low[k]), std::fabs(box.high[k])});
-    }
-    margins_[b].travel += dt * std::sqrt(square);
-    margins_[b].extent += dt * speed;
-    margins_[b].steps += 1;
+void BlockSearch::expect(const SearchBody& body, ThreadTeam& team) {
+  if (!active_) return;
+  started_ = false;
+  while (static_cast<int>(workers_.size()) < team.size()) {
+    workers_.emplace_back();
+    workers_.back().x.assign(
+        at(body.dimension == 3 ? kStride<3> * static_cast<std::int64_t>(body.blocks.largest)
+                               : kStride<2> * static_cast<std::int64_t>(body.blocks.largest)),
+        0.0);
+    workers_.back().found.reserve(kReserve);
   }
+  for (std::size_t b = 0; b < margins_.size(); ++b)
+    waiting_[b] = 1 + static_cast<std::int32_t>(body.blocks.blocks[b].beside.size());
+}
+
+void BlockSearch::advanced(const SearchBody& body, const std::vector<VelocityBox>& boxes, double dt,
+                           std::int64_t b, int worker) {
+  if (!active_) return;
+  const auto arrived = [&](std::int32_t other) {
+    const std::size_t o = at(other);
+    if (std::atomic_ref(waiting_[o]).fetch_sub(1, std::memory_order_acq_rel) != 1) return;
+    widen(body.blocks, boxes, dt, o);
+    if (margins_[o].used() >= margins_[o].least) look(body, o, workers_[at(worker)]);
+  };
+  for (const std::int32_t other : body.blocks.blocks[at(b)].beside) arrived(other);
+  arrived(static_cast<std::int32_t>(b));
+}
+
+// What bonds of a block can have grown by in a step dt v.
+void BlockSearch::widen(const BlockNetwork& blocks, const std::vector<VelocityBox>& boxes,
+                        double dt, std::size_t b) {
+  VelocityBox box = boxes[b];
+  for (const std::int32_t other : blocks.blocks[b].beside)
+    for (int k = 0; k < 3; ++k) {
+      box.low[k] = std::fmin(box.low[k], boxes[at(other)].low[k]);
+      box.high[k] = std::fmax(box.high[k], boxes[at(other)].high[k]);
+    }
+  double square = 0, speed = 0;
+  for (int k = 0; k < 3; ++k) {
+    const double range = box.high[k] - box.low[k];
+    if (range > 0) square += range * range;
+    speed = std::max({speed, std::fabs(box.low[k]), std::fabs(box.high[k])});
+  }
+  margins_[b].travel += dt * std::sqrt(square);
+  margins_[b].extent += dt * speed;
+  margins_[b].steps += 1;
 }
 
 // A step rounds u and x by a few units of their last place; 1e-14 of the coordinates is more than 40.
@@ -85,8 +116,10 @@ double BlockSearch::Margin::used() const {
 }
 
 template <int D>
-void BlockSearch::find_in_row(const Network& network, const BlockNetwork& blocks,
-                              const Block& block, std::int32_t i, Worker& worker) {
+void BlockSearch::find_in_row(const SearchBody& body, const Block& block, std::int32_t i,
+                              Worker& worker) {
+  const Network& network = body.network;
+  const BlockNetwork& blocks = body.blocks;
   const std::int32_t place = place_of(block, i);
   const auto test = [&](const BlockBonds& bonds, std::int32_t b) {
     const std::int32_t p = bonds.end[at(b)], other = place_of(block, p);
@@ -106,56 +139,43 @@ void BlockSearch::find_in_row(const Network& network, const BlockNetwork& blocks
     for (std::int32_t b = 0; b < bonds->count[at(i)]; ++b) test(*bonds, bonds->begin[at(i)] + b);
 }
 
-template <int D>
-void BlockSearch::look(const Network& network, const BlockNetwork& blocks, const Block& block,
-                       const BlockKernels& kernels, const double* X, const double* u,
-                       Margin& margin, Worker& worker) {
+void BlockSearch::look(const SearchBody& body, std::size_t b, Worker& worker) {
+  const Block& block = body.blocks.blocks[b];
+  Margin& margin = margins_[b];
   float* slack = slack_.data() + block.first;
   const double used = margin.used();
   for (std::int32_t i = 0; i < block.own; ++i)
     slack[i] = static_cast<float>((slack[i] - used) * (1 - 1e-6));
-  kernels.look[D - 2]({block.first, block.own, block.locals(), block.foreign.data(),
-                       rows_of(block.twins), rows_of(block.halves), block.twins.square_limit.data(),
-                       block.halves.square_limit.data(), margin.scale, X, u, worker.x.data(),
-                       slack});
+  body.kernels.look[body.dimension - 2](
+      {block.first, block.own, block.locals(), block.foreign.data(), rows_of(block.twins),
+       rows_of(block.halves), block.twins.square_limit.data(), block.halves.square_limit.data(),
+       margin.scale, body.X, body.u, worker.x.data(), slack});
   float least = std::numeric_limits<float>::infinity();
   for (std::int32_t i = 0; i < block.own; ++i) {
     least = std::min(least, slack[i]);
-    if (!(slack[i] > 0)) find_in_row<D>(network, blocks, block, i, worker);
+    if (slack[i] > 0) continue;
+    body.dimension == 3 ? find_in_row<3>(body, block, i, worker)
+                        : find_in_row<2>(body, block, i, worker);
   }
   margin.least = least;
   margin.travel = margin.steps = 0;
 }
 
-template <int D>
-const std::vector<std::int32_t>& BlockSearch::find(const BlockNetwork& blocks,
-                                                   const Network& network,
-                                                   const BlockKernels& kernels, const double* X,
-                                                   const double* u, ThreadTeam& team) {
+const std::vector<std::int32_t>& BlockSearch::find(const SearchBody& body, ThreadTeam& team) {
   broken_.clear();
   if (!active_) return broken_;
-  while (static_cast<int>(workers_.size()) < team.size()) {
-    workers_.emplace_back();
-    workers_.back().x.assign(at(kStride<D> * static_cast<std::int64_t>(blocks.largest)), 0.0);
-    workers_.back().found.reserve(kReserve);
+  if (started_) {
+    expect(body, team);
+    team.for_blocks(static_cast<std::int64_t>(margins_.size()),
+                    [&](std::int64_t b, int worker) { look(body, at(b), workers_[at(worker)]); });
+    started_ = false;
   }
-  for (Worker& worker : workers_) worker.found.clear();
-  team.for_blocks(static_cast<std::int64_t>(margins_.size()), [&](std::int64_t b, int worker) {
-    Margin& margin = margins_[at(b)];
-    if (margin.used() < margin.least) return;
-    look<D>(network, blocks, blocks.blocks[at(b)], kernels, X, u, margin, workers_[at(worker)]);
-  });
-  for (const Worker& worker : workers_)
+  for (Worker& worker : workers_) {
     broken_.insert(broken_.end(), worker.found.begin(), worker.found.end());
+    worker.found.clear();
+  }
   std::sort(broken_.begin(), broken_.end());
   return broken_;
 }
-
-template const std::vector<std::int32_t>& BlockSearch::find<2>(const BlockNetwork&, const Network&,
-                                                               const BlockKernels&, const double*,
-                                                               const double*, ThreadTeam&);
-template const std::vector<std::int32_t>& BlockSearch::find<3>(const BlockNetwork&, const Network&,
-                                                               const BlockKernels&, const double*,
-                                                               const double*, ThreadTeam&);
 
 }  // namespace cleave::cbm

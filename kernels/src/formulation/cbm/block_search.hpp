@@ -15,19 +15,29 @@
 
 namespace cleave::cbm {
 
+// What is searched.     by place: X, u (D,n) and a number more
+struct SearchBody {
+  const BlockNetwork& blocks;
+  const Network& network;
+  const BlockKernels& kernels;
+  int dimension;
+  const double *X, *u;
+};
+
 class BlockSearch {
  public:
   void setup(const BlockNetwork& blocks, bool active);
   std::int64_t bytes() const;
   // From this state on; every bond is looked at next time.
   void start(const BlockNetwork& blocks, std::span<const double> X, std::span<const double> u);
-  // Particles went on by dt v.
-  void moved(const BlockNetwork& blocks, const std::vector<VelocityBox>& boxes, double dt);
-  // Bonds that are intact and meet the criterion, ascending.  [in] by place: X, u (D,n) and a number more
-  template <int D>
-  const std::vector<std::int32_t>& find(const BlockNetwork& blocks, const Network& network,
-                                        const BlockKernels& kernels, const double* X,
-                                        const double* u, ThreadTeam& team);
+  // A step begins, in which `advanced` is called for each block.
+  void expect(const SearchBody& body, ThreadTeam& team);
+  // The particles of block b went on by dt v, in a loop of the team. Blocks whose surroundings have all done so
+  // are looked at right there, while their positions are in the core's cache.
+  void advanced(const SearchBody& body, const std::vector<VelocityBox>& boxes, double dt,
+                std::int64_t b, int worker);
+  // Bonds that are intact and met the criterion in this step, ascending.
+  const std::vector<std::int32_t>& find(const SearchBody& body, ThreadTeam& team);
 
  private:
   struct Margin {
@@ -42,18 +52,20 @@ class BlockSearch {
     AlignedReals x;                   // positions of the particles of a block
     std::vector<std::int32_t> found;  // broken bonds
   };
+  void widen(const BlockNetwork& blocks, const std::vector<VelocityBox>& boxes, double dt,
+             std::size_t b);
+  void look(const SearchBody& body, std::size_t b, Worker& worker);
   template <int D>
-  void look(const Network& network, const BlockNetwork& blocks, const Block& block,
-            const BlockKernels& kernels, const double* X, const double* u, Margin& margin,
-            Worker& worker);
-  template <int D>
-  static void find_in_row(const Network& network, const BlockNetwork& blocks, const Block& block,
-                          std::int32_t i, Worker& worker);
+  static void find_in_row(const SearchBody& body, const Block& block, std::int32_t i,
+                          Worker& worker);
 
   bool active_ = false;
+  bool started_ = false;  // and no step has begun since
   std::vector<Margin> margins_;
   std::vector<float> slack_;  // (n) by place: how much the bonds of a row could still grow when its
                               // block was last looked at [m]
+  std::vector<std::int32_t>
+      waiting_;  // of a block: blocks around it, itself too, that have not advanced
   std::vector<Worker> workers_;
   std::vector<std::int32_t> broken_;
 };

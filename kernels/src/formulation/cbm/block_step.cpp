@@ -28,6 +28,10 @@ void BlockStep::add_power(std::int64_t component, PowerSums& powers) const {
   if (has_external_) powers.external += fe_[at(component)] * v;
 }
 
+SearchBody BlockStep::search_body(const Body& body) const {
+  return {net_, parts_.network, *kernels_, body.dimension(), X_.data(), u_.data()};
+}
+
 MotionArrays BlockStep::motion() {
   return {u_.data(),
           v_.data(),
@@ -42,13 +46,15 @@ template <int D>
 void BlockStep::advance_in(Body& body, double dt) {
   PowerSums driven{};
   const double reaction = advance_driven<D>(body, dt, driven);
-  team_->for_blocks(static_cast<std::int64_t>(net_.blocks.size()), [&](std::int64_t b) {
+  const SearchBody searched = search_body(body);
+  search_.expect(searched, *team_);
+  team_->for_blocks(static_cast<std::int64_t>(net_.blocks.size()), [&](std::int64_t b, int worker) {
     const Block& block = net_.blocks[at(b)];
     results_[at(b)].powers = kernels_->advance[D - 2](
         motion(), block.first, block.first + block.own, 0.5 * dt, dt, boxes_[at(b)]);
+    search_.advanced(searched, boxes_, dt, b, worker);
   });
   book(body, dt, driven, reaction);
-  search_.moved(net_, boxes_, dt);
 }
 
 // Power of the forces that keep the motion [W]; the others' is added to `powers`.
@@ -280,8 +286,7 @@ void BlockStep::update_forces(Body& body, const Clock& clock, double half, bool 
 
 template <int D>
 void BlockStep::update_in(Body& body, const Clock& clock) {
-  const auto& broken =
-      search_.find<D>(net_, parts_.network, *kernels_, X_.data(), u_.data(), *team_);
+  const auto& broken = search_.find(search_body(body), *team_);
   rebuild_rows(body, parts_.fracture.step(body, parts_.network, parts_.stabilisation, clock, broken,
                                           state(body)));
   const double half = 0.5 * clock.dt;

@@ -101,6 +101,7 @@ class BlockStep final : public ResidentStep {
   template <int D>
   double finish_driven(const Body& body, double half, PowerSums& powers);
   MotionArrays motion();
+  SearchBody search_body(const Body& body) const;
   double total(std::int64_t component) const;
   void add_power(std::int64_t component, PowerSums& powers) const;
   void book(Body& body, double dt, PowerSums powers, double reaction) const;
