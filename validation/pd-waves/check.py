@@ -97,8 +97,8 @@ def runs(mode):
 def deep(formulation, ratio):
     """In space, on a shorter way."""
     return column(f"{formulation}-P-deep", formulation, ratio, "P", {
-        "body.kinematics": "3d", "lattice.type": "cubic", "lattice.size": (50, 59, 59), "run.t_end": 45 / material_speed(ratio, "P"),
-        "probe(1).point": (DEEP_NEAR, 29.5, 29.5), "probe(2).point": (DEEP_FAR, 29.5, 29.5)})
+        "body.kinematics": "3d", "lattice.type": "cubic", "lattice.size": (50, 62, 62), "run.t_end": 58 / material_speed(ratio, "P"),
+        "probe(1).point": (DEEP_NEAR, 30.5, 30.5), "probe(2).point": (DEEP_FAR, 30.5, 30.5)})
 
 
 def energetic(formulation, ratio):
