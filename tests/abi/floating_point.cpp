@@ -28,12 +28,12 @@ class FloatingPoint : public testing::TestWithParam<Case> {};
 
 TEST_P(FloatingPoint, NoTrapInAFractureRun) {
   const int d = dimension_of(GetParam());
-  const SimplexMesh mesh = patch(d, d == 2 ? 10 : 5, 0.01, 0.15, 111);
+  const SimplexMesh mesh = solid(GetParam(), d == 2 ? 10 : 5, 0.01, 0.15, 111);
   const Traps traps;
   for (const char* viscosity : {"frozen", "central", "paper"}) {
     for (const std::string stabilisation : {"deviation", "blend"}) {
       if (stabilisation == "blend" && remembers(GetParam())) continue;  // refused
-      const bool bonds_only = peridynamic(GetParam().formulation);
+      const bool bonds_only = interacts(GetParam().formulation);
       if (stabilisation == "deviation" && !bonds_only && !takes(GetParam(), "stabilisation"))
         continue;  // a fluid
       if (bonds_only && stabilisation == "blend") continue;
@@ -75,8 +75,7 @@ TEST_P(FloatingPoint, NoTrapInAFractureRun) {
 class Coinciding : public testing::TestWithParam<Case> {};
 
 TEST_P(Coinciding, NoTrapWhereParticlesCoincide) {
-  const int d = dimension_of(GetParam());
-  const SimplexMesh mesh = patch(d, 3, 0.01, 0.1, 112);
+  const SimplexMesh mesh = solid(GetParam(), 3, 0.01, 0.1, 112);
   const Traps traps;
   for (const char* viscosity : {"frozen", "central", "paper"}) {
     Model model;
