@@ -11,11 +11,45 @@
 #include "run/threads.hpp"
 #include "scene/format.hpp"
 #include "scene/index.hpp"
+#include "scene/region.hpp"
 
 namespace cleave::driver {
 namespace {
 
 void say(const std::string& line) { std::fputs((line + "\n").c_str(), stdout); }
+
+// Whether the way between two particles leads through a region.
+bool leads_through(const Region& region, const double* from, const double* to) {
+  constexpr int kParts = 8;
+  for (int n = 1; n < kParts; ++n) {
+    const double t = static_cast<double>(n) / kParts;
+    double x[3];
+    for (int k = 0; k < 3; ++k) x[k] = (1 - t) * from[k] + t * to[k];
+    if (region.contains(x, 0)) return true;
+  }
+  return false;
+}
+
+// A horizon may be longer than a notch is wide: then bonds hold it together.
+void say_bridged_notches(const Scene& scene, Index body) {
+  const BodyGeometry& geometry = scene.bodies()[static_cast<std::size_t>(body)];
+  Index place = 0;
+  for (const DeckGroup* notch : scene.deck().all("notch")) {
+    ++place;
+    if (!notch->text("body").empty() && notch->text("body") != geometry.name) continue;
+    const Region region(scene.deck(), *notch);
+    const auto ends = scene.model().integers(body, "bond_ends");
+    const auto status = scene.model().integers(body, "bond_status");
+    Index bridges = 0;
+    for (std::size_t b = 0; b < status.size(); ++b)
+      if (status[b] == 0 && leads_through(region, geometry.X.data() + 3 * ends[2 * b],
+                                          geometry.X.data() + 3 * ends[2 * b + 1]))
+        ++bridges;
+    if (bridges == 0) continue;
+    say("  " + number(bridges) + " bonds reach across notch " + number(place) +
+        " and hold it together; &precrack cuts them");
+  }
+}
 
 void say_bodies(const Scene& scene) {
   for (Index body = 0; body < scene.model().bodies(); ++body) {
@@ -32,6 +66,7 @@ void say_bodies(const Scene& scene) {
       say("  interactions: " + number(Index(std::llround(n[0]))) + " one-neighbour, " +
           number(Index(std::llround(n[1]))) + " two-neighbour, " +
           number(Index(std::llround(n[2]))) + " three-neighbour");
+      say_bridged_notches(scene, body);
     }
     for (const NamedSet& set : scene.sets().of_body(body)) {
       say("  set " + in_quotes(set.name) + ": " + number(Index(set.particles.size())) +

@@ -104,6 +104,25 @@ def told_of_interactions(root):
           "hours", done.stdout)
 
 
+def told_of_notches(root):
+    """Bonds across a notch that is narrower than the horizon: those of two rows of six cells whose third are taken out."""
+    group = """
+&lattice type='square' spacing=1 size=6,2,0 points='centres' /
+&body kinematics='plane_strain' material='unit' formulation='bond_pd' /
+&material name='unit' law='linear_elastic' E=1 nu=0.25 rho=1 /
+&peridynamics horizon=3.1 /
+&notch lower=2,-1 upper=3,2 /
+"""
+    write_deck(root, "t_end=50", group)
+    # 0 1 | 3 4 5: 0-3 and 1-4 in each row, 1-3 also from row to row
+    done = cleave(root, "check", "case.nml")
+    check(re.search(r"^  8 bonds reach across notch 1 and hold it together; &precrack cuts them$",
+                    done.stdout, re.M), "bridges", done.stdout + done.stderr)
+    write_deck(root, "t_end=50", group + "&precrack points=2.5,-1,2.5,2 /\n")
+    done = cleave(root, "check", "case.nml")
+    check(done.returncode == 0 and "reach across" not in done.stdout, "bridges that are cut", done.stdout + done.stderr)
+
+
 def more_threads_than_cores(root):
     """Allowed and said, in a run and a check; not with --quiet, and not where there are cores enough."""
     if not hasattr(os, "sched_setaffinity"):
@@ -125,6 +144,6 @@ def more_threads_than_cores(root):
 
 
 with tempfile.TemporaryDirectory() as temporary:
-    for test in (stopped_and_continued, moved_directory, failed, told, told_of_interactions,
+    for test in (stopped_and_continued, moved_directory, failed, told, told_of_interactions, told_of_notches,
                  more_threads_than_cores):
         test(pathlib.Path(temporary) / test.__name__)

@@ -25,6 +25,20 @@ SimplexMesh block_mesh(const BlockCase& c) {
   return dimension_of(c.body) == 2 ? patch(2, 24, kSpacing, 0.2, 5) : patch(3, 8, kSpacing, 0.2, 5);
 }
 
+// Step and ends of every broken bond.
+std::vector<std::array<std::int64_t, 3>> broken_bonds(cleave_model* model) {
+  std::vector<std::array<std::int64_t, 3>> list;
+  int64_t count = 0;
+  ok(cleave_body_event_count(model, 0, &count));
+  for (int64_t k = 0; k < count; ++k) {
+    cleave_event e{};
+    e.size = sizeof e;
+    ok(cleave_body_event_get(model, 0, k, &e));
+    list.push_back({e.step, e.first, e.second});
+  }
+  return list;
+}
+
 struct Pull {
   Pull(const BlockCase& c, const SimplexMesh& m, int32_t order, int32_t threads = 1) : mesh(m) {
     ok(cleave_model_set_order(model, order));
@@ -68,18 +82,7 @@ struct Pull {
       ok(cleave_model_update(model));
     }
   }
-  std::vector<std::array<int64_t, 3>> events() const {
-    int64_t count = 0;
-    ok(cleave_body_event_count(model, 0, &count));
-    std::vector<std::array<int64_t, 3>> list;
-    for (int64_t k = 0; k < count; ++k) {
-      cleave_event e{};
-      e.size = sizeof e;
-      ok(cleave_body_event_get(model, 0, k, &e));
-      list.push_back({e.step, e.first, e.second});
-    }
-    return list;
-  }
+  std::vector<std::array<int64_t, 3>> events() const { return broken_bonds(model); }
   static std::vector<double> random_vectors(const SimplexMesh& m, double size, unsigned seed) {
     Random random(seed);
     std::vector<double> v(m.X.size(), 0.0);
@@ -165,8 +168,7 @@ TEST_P(Blocks, BitsDependNeitherOnThreadsNorOnLooking) {
 
 using Motion = void (*)(double x, double y, double* v);
 
-// Step and ends of every broken bond.
-std::vector<std::array<std::int64_t, 3>> broken_bonds(std::int32_t order, Motion motion) {
+std::vector<std::array<std::int64_t, 3>> bonds_broken_by(std::int32_t order, Motion motion) {
   const SimplexMesh m = patch(2, 24, kSpacing, 0.2, 5);
   Model model;
   ok(cleave_model_set_order(model, order));
@@ -180,16 +182,7 @@ std::vector<std::array<std::int64_t, 3>> broken_bonds(std::int32_t order, Motion
   model.initialise();
   const double dt = 0.4 * model.stable_step();
   for (int n = 0; n < 200; ++n) model.step(dt);
-  std::vector<std::array<std::int64_t, 3>> events;
-  int64_t count = 0;
-  ok(cleave_body_event_count(model, 0, &count));
-  for (int64_t k = 0; k < count; ++k) {
-    cleave_event e{};
-    e.size = sizeof e;
-    ok(cleave_body_event_get(model, 0, k, &e));
-    events.push_back({e.step, e.first, e.second});
-  }
-  return events;
+  return broken_bonds(model);
 }
 
 // A body that flies and spins fast without straining is looked at rarely; what breaks it at last is found in
@@ -199,9 +192,9 @@ TEST(BlockSearch, FindsEveryBondInItsStepWhileTheBodySpins) {
     v[0] = 500 - 400 * y + (x > 0.1 ? 25 : 0);
     v[1] = 400 * x;
   };
-  const auto rows = broken_bonds(CLEAVE_ORDER_ROWS, motion);
+  const auto rows = bonds_broken_by(CLEAVE_ORDER_ROWS, motion);
   EXPECT_GT(rows.size(), 20u);
-  EXPECT_EQ(broken_bonds(CLEAVE_ORDER_BLOCKS, motion), rows);
+  EXPECT_EQ(bonds_broken_by(CLEAVE_ORDER_BLOCKS, motion), rows);
 }
 
 // Two halves that fly apart: bonds grow as fast as the bound allows, over ten steps and more.
@@ -209,9 +202,9 @@ TEST(BlockSearch, FindsEveryBondInItsStepWhileHalvesPart) {
   for (const Motion motion :
        {Motion([](double x, double, double*v) { v[0] = x > 0.005 ? 60 : 0; }),
         Motion([](double, double y, double*v) { v[1] = y > 0.005 ? 25 : -25; })}) {
-    const auto rows = broken_bonds(CLEAVE_ORDER_ROWS, motion);
+    const auto rows = bonds_broken_by(CLEAVE_ORDER_ROWS, motion);
     EXPECT_GT(rows.size(), 20u);
-    EXPECT_EQ(broken_bonds(CLEAVE_ORDER_BLOCKS, motion), rows);
+    EXPECT_EQ(bonds_broken_by(CLEAVE_ORDER_BLOCKS, motion), rows);
   }
 }
 
