@@ -7,7 +7,7 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]))
 import netCDF4  # noqa: E402
 import numpy  # noqa: E402
-from tools import crack_angle, cracks, curves, deck, host_code, interpolation, lattice_sums, picture, rates, results, simulation  # noqa: E402
+from tools import crack_angle, cracks, curves, deck, host_code, interpolation, lattice_sums, picture, rates, rectangle, results, simulation  # noqa: E402
 
 DECK = """! a deck
 &run
@@ -184,6 +184,39 @@ class Interpolation(unittest.TestCase):
         found = interpolation.nearest(self.points, self.targets, 5)
         distance = numpy.linalg.norm(self.points[None] - self.targets[:, None], axis=2)
         numpy.testing.assert_array_equal(found, numpy.argsort(distance, axis=1)[:, :5])
+
+
+class Rectangles(unittest.TestCase):
+    X, Y = rectangle.graded_to_both_ends(10.0, 6, 0.1), rectangle.graded(29.0, 5, 1.0, 0.05)
+
+    def test_lines_are_small_where_asked_and_fit(self):
+        self.assertEqual((self.X[0], self.X[-1], self.Y[0]), (0.0, 10.0, 0.0))
+        self.assertAlmostEqual(self.Y[-1], 29.0)
+        numpy.testing.assert_allclose(self.X + self.X[::-1], 10.0)
+        sizes = numpy.diff(self.Y)
+        numpy.testing.assert_allclose((sizes[-1] / sizes[0], numpy.diff(self.X)[0] / numpy.diff(self.X)[2]), (0.05, 0.1))
+
+    def test_triangles_turn_the_same_way_and_fill_the_rectangle(self):
+        lines = rectangle.mesh(self.X, self.Y).split("\n")
+        count = int(lines[4])
+        points = numpy.array([line.split() for line in lines[5:5 + count]], float)[:, 1:3]
+        corners = numpy.array([line.split()[5:] for line in lines[8 + count:-2]], int) - 1
+        a, b = (points[corners[:, k]] - points[corners[:, 0]] for k in (1, 2))
+        areas = (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2
+        self.assertEqual(len(areas), 60)
+        self.assertGreater(areas.min(), 0)
+        self.assertAlmostEqual(areas.sum(), 290.0)
+
+    def test_quadratic_fields_are_read_exactly(self):
+        columns, rows = numpy.meshgrid(rectangle.with_middles(self.X), rectangle.with_middles(self.Y))
+        points = numpy.random.default_rng(1).permutation(numpy.column_stack([columns.ravel(), rows.ravel()]))
+        places = numpy.random.default_rng(2).uniform((0, 0), (10, 29), (50, 2))
+        field = lambda p: 1 + p[:, 0] ** 2 - 3 * p[:, 0] * p[:, 1] + p[:, 1] ** 2
+        grid = rectangle.Grid(self.X, self.Y, points)
+        numpy.testing.assert_allclose(grid.at(field(points), places), field(places), rtol=1e-10, atol=1e-10)
+        numpy.testing.assert_allclose(grid.at(field(points), points), field(points), rtol=1e-10, atol=1e-10)
+        with self.assertRaises(ValueError):
+            rectangle.Grid(self.X, self.Y, points[1:])
 
 
 class Rates(unittest.TestCase):
