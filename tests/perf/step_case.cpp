@@ -29,9 +29,10 @@ constexpr double kJostle = 1e-4;  // random velocity over the wave speed
 // elastic strains below what a step adds, so that no wave from the surface stops the flow.
 constexpr double kPlasticStretch = 1e-2, kPlasticRate = 5e-8, kSoftening = 1e-4;
 // Search: angle of a step, and how far the tightest bonds are from breaking. A block of 2048 particles is
-// 13 spacings across, so that its ends pass each other by 2e-4 spacings or more in a step; the straight
-// paths of n steps stretch a bond by (n kSpin)^2/2, 1.1e-4 after a thousand.
-constexpr double kSpin = 1.5e-5, kTight = 2.5e-4;
+// 13 spacings across, in the plane 45, so that its ends pass each other by 2e-4 spacings or more in a step; the
+// straight paths of n steps stretch a bond by (n spin)^2/2: it breaks after 1500 steps, in the plane, where
+// steps are fast, after 4500.
+constexpr double kSpin = 1.5e-5, kSpinInPlane = 5e-6, kTight = 2.5e-4;
 constexpr double kFar = 0.5;
 constexpr double kCriticalStrain = 0.01, kFrontSpeed = 0.25;  // breaking; spacings a step
 
@@ -245,6 +246,7 @@ void StepModel::put_motion(const StepCase& wanted, const StepMesh& mesh, std::ve
   } else if (!wanted.plastic && !wanted.search) {
     v = test::random_vectors(m, kJostle * speed, 3);
   }
+  const double spin = m.dimension == 2 ? kSpinInPlane : kSpin;
   for (std::size_t i = 0; i < v.size(); i += 3) {
     for (std::size_t k = 0; k < 3 && wanted.plastic; ++k) {
       const double still = isochoric(kPlasticStretch, k, m.dimension) * m.X[i + k];
@@ -256,8 +258,8 @@ void StepModel::put_motion(const StepCase& wanted, const StepMesh& mesh, std::ve
     }
     if (!wanted.search) continue;
     const double x = m.X[i] + u[i], y = m.X[i + 1] + u[i + 1];
-    v[i] -= kSpin / dt_ * y;
-    v[i + 1] += kSpin / dt_ * x;
+    v[i] -= spin / dt_ * y;
+    v[i + 1] += spin / dt_ * x;
   }
   check(cleave_field_put_real(model_, 0, "displacement", 0, particles_, u.data()));
   check(cleave_field_put_real(model_, 0, "velocity", 0, particles_, v.data()));
