@@ -67,10 +67,8 @@ void BlockSearch::expect(const SearchBody& body, ThreadTeam& team) {
   started_ = false;
   while (static_cast<int>(workers_.size()) < team.size()) {
     workers_.emplace_back();
-    workers_.back().x.assign(
-        at(body.dimension == 3 ? kStride<3> * static_cast<std::int64_t>(body.blocks.largest)
-                               : kStride<2> * static_cast<std::int64_t>(body.blocks.largest)),
-        0.0);
+    const std::int64_t stride = body.dimension == 3 ? kStride<3> : kStride<2>;
+    workers_.back().x.assign(at(stride * body.blocks.largest), 0.0);
     workers_.back().found.reserve(kReserve);
   }
   for (std::size_t b = 0; b < margins_.size(); ++b)
@@ -168,7 +166,6 @@ const std::vector<std::int32_t>& BlockSearch::find(const SearchBody& body, Threa
     expect(body, team);
     team.for_blocks(static_cast<std::int64_t>(margins_.size()),
                     [&](std::int64_t b, int worker) { look(body, at(b), workers_[at(worker)]); });
-    started_ = false;
   }
   for (Worker& worker : workers_) {
     broken_.insert(broken_.end(), worker.found.begin(), worker.found.end());

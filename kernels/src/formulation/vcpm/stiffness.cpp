@@ -19,7 +19,8 @@ bool VolumeCompensatedParticles::holds(const Body&, std::int64_t i) const {
 void VolumeCompensatedParticles::add_stiffness(const Body& body, StiffnessSink& sink) const {
   const int D = dimension_;
   const auto d = static_cast<std::size_t>(D);
-  std::vector<double> matrix(4 * d * d), slope;
+  const double scale = lattice_.cell * modulus_;
+  std::vector<double> matrix(4 * d * d), slope, volume;
   std::vector<std::int32_t> particles;
   for (std::int64_t i = 0; i < hood_.points; ++i) {
     particles.assign(1, static_cast<std::int32_t>(i));
@@ -45,12 +46,12 @@ void VolumeCompensatedParticles::add_stiffness(const Body& body, StiffnessSink& 
       const std::int32_t ends[2] = {static_cast<std::int32_t>(i), p};
       sink.add(ends, matrix.data());
     });
+    if (scale == 0) continue;  // nu = 1/4: springs alone
     const std::size_t size = slope.size();
-    std::vector<double> volume(size * size);
-    const double scale = lattice_.cell * modulus_;
+    volume.resize(size * size);
     for (std::size_t r = 0; r < size; ++r)
       for (std::size_t c = 0; c < size; ++c) volume[size * r + c] = scale * slope[r] * slope[c];
-    if (scale != 0) sink.add(particles, volume.data());
+    sink.add(particles, volume.data());
   }
 }
 
