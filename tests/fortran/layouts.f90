@@ -197,7 +197,9 @@ contains
     call same('size of cleave_static_options', b, c_loc(s(1)%size))
     call same('tolerance of cleave_static_options', b, c_loc(s(1)%tolerance))
     call same('max_iterations of cleave_static_options', b, c_loc(s(1)%max_iterations))
-    call same('reserved of cleave_static_options', b, c_loc(s(1)%reserved))
+    call same('stop_at_limit of cleave_static_options', b, c_loc(s(1)%stop_at_limit))
+    call same('solver of cleave_static_options', b, c_loc(s(1)%solver))
+    call same('breaking of cleave_static_options', b, c_loc(s(1)%breaking))
     call last_member('cleave_static_options')
   end subroutine static_options_layout
 
@@ -210,6 +212,9 @@ contains
     call same('iterations of cleave_static_report', b, c_loc(s(1)%iterations))
     call same('unknowns of cleave_static_report', b, c_loc(s(1)%unknowns))
     call same('residual of cleave_static_report', b, c_loc(s(1)%residual))
+    call same('fraction of cleave_static_report', b, c_loc(s(1)%fraction))
+    call same('broken of cleave_static_report', b, c_loc(s(1)%broken))
+    call same('critical of cleave_static_report', b, c_loc(s(1)%critical))
     call last_member('cleave_static_report')
   end subroutine static_report_layout
 

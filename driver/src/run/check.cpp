@@ -91,9 +91,11 @@ StepCost time_a_step(Scene& scene, const Clock& clock) {
   };
   constexpr Index kSteps = 50;
   constexpr double kSeconds = 1.0;
-  constexpr double kPatience = 10.0;  // for a step by relaxation
+  constexpr double kPatience = 10.0;  // for a static increment
   Index step = 0;
-  const auto watch = [&](const StepReport&) { return seconds() < kPatience; };
+  const auto patient = [&] { return seconds() < kPatience; };
+  const StepWatch watch{[&](const StepReport&) { return patient(); },
+                        [&](double, const StepReport&) { return patient(); }};
   while (step < std::min(kSteps, clock.steps) && seconds() < kSeconds) {
     if (!stepping.step(scene, clock, step++, watch).finished)
       return {seconds() / static_cast<double>(step), true};

@@ -116,6 +116,7 @@ CheckpointHeader header_of(const io::ArchiveHeader& archive, const std::string& 
   header.step = attribute<Index>(archive, "step", path);
   header.steps = attribute<Index>(archive, "steps", path);
   header.dt = attribute<double>(archive, "time_step", path);
+  header.time = attribute<double>(archive, "time", path);
   header.cursors = {attribute<Index>(archive, "frames", path),
                     attribute<Index>(archive, "history_records", path),
                     attribute<Index>(archive, "event_records", path)};
@@ -185,8 +186,7 @@ void restore_fields(const io::ArchiveHeader& archive, const CheckpointHeader& he
   };
   for_fields(scene, CLEAVE_LIFETIME_SETUP, put);
   for_fields(scene, CLEAVE_LIFETIME_STATE, put);
-  const double time = static_cast<double>(header.step) * header.dt;
-  check(cleave_model_restore(scene.model().handle(), header.step, time));
+  check(cleave_model_restore(scene.model().handle(), header.step, header.time));
 }
 
 }  // namespace cleave::driver

@@ -21,7 +21,7 @@ std::string why_not_continued(const std::vector<io::Attribute>& attributes);
 struct CheckpointHeader {
   std::string deck_text, deck_path, resolved_deck;
   std::int64_t step = 0, steps = 0;
-  double dt = 0;
+  double dt = 0, time = 0;
   Cursors cursors;
 };
 CheckpointHeader header_of(const io::ArchiveHeader& archive, const std::string& path);

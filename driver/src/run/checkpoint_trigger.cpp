@@ -62,6 +62,16 @@ CheckpointVerdict CheckpointTrigger::within_step(double wall,
   return {};
 }
 
+CheckpointVerdict CheckpointTrigger::at_event(double wall,
+                                              const CheckpointRequests& requests) const {
+  using enum CheckpointAction;
+  CheckpointVerdict verdict = within_step(wall, requests);
+  if (verdict.action == stop) return verdict;
+  if (requests.write) return {write, "checkpoint written on request"};
+  if (wall_.every > 0 && wall - last_attempt_ >= wall_.every) return {write, {}};
+  return {};
+}
+
 void CheckpointTrigger::attempted(double from, double to) {
   cost_ = measured_ ? std::max(cost_, to - from) : to - from;
   measured_ = true;

@@ -53,6 +53,8 @@ class CheckpointTrigger {
   CheckpointVerdict after_step(std::int64_t step, double wall, const CheckpointRequests& requests);
   // In the middle of a step that takes long, whose start is kept: stop, or none.
   CheckpointVerdict within_step(double wall, const CheckpointRequests& requests) const;
+  // The same where the run can go on from the present state: written too when asked for, or by wall time.
+  CheckpointVerdict at_event(double wall, const CheckpointRequests& requests) const;
   // A checkpoint was written, or tried in vain, between these wall times.
   void attempted(double from, double to);
 

@@ -167,7 +167,15 @@ void Progress::relaxing(const Clock& clock, std::int64_t step, const StepReport&
   print(relaxation_text(clock, step, so_far) + ", relaxing", false);
 }
 
-void Progress::relaxed(const Clock& clock, std::int64_t step, const StepReport& report) {
+void Progress::solving(const Clock& clock, std::int64_t step, double time,
+                       const StepReport& so_far) {
+  const auto now = WallClock::now();
+  if (std::chrono::duration<double>(now - last_relaxing_).count() < every_) return;
+  last_relaxing_ = now;
+  print(relaxation_text(clock, step, so_far) + ", t = " + number(time), false);
+}
+
+void Progress::increment_done(const Clock& clock, std::int64_t step, const StepReport& report) {
   last_relaxing_ = WallClock::now();
   note(relaxation_text(clock, step, report));
 }

@@ -24,9 +24,10 @@ class Progress {
   // Whether the wall time between status lines has passed.
   bool due() const;
   void status(const Model& model, const Clock& clock, std::int64_t step, const cleave_energies& e);
-  // One static increment by relaxation: while it is sought, now and then, and what it took.
+  // One static increment: while it is sought, now and then, and what it took.
   void relaxing(const Clock& clock, std::int64_t step, const StepReport& so_far);
-  void relaxed(const Clock& clock, std::int64_t step, const StepReport& report);
+  void solving(const Clock& clock, std::int64_t step, double time, const StepReport& so_far);
+  void increment_done(const Clock& clock, std::int64_t step, const StepReport& report);
   void finish(const std::string& what, const std::vector<std::string>& files);
 
   double seconds() const;  // since the run began

@@ -93,7 +93,7 @@ int Simulation::resume(const CheckpointHeader& header, const std::vector<std::st
 int Simulation::loop(Index first_step) {
   Signals signals;
   Index step = first_step;
-  good_.take(scene_, step, cursors());
+  keep(step);
   trigger_.begin(seconds_since_start());
   try {
     const std::string stopped = steps(step, signals);
@@ -137,20 +137,43 @@ std::string Simulation::steps(Index& step, Signals& signals) {
   return stopped;
 }
 
-// Only a relaxation can be stopped half-way: back to the last increment, from which it begins anew.
+// Stopped half-way a relaxation goes back to the last increment, from which it begins anew; Newton's method goes
+// on from the event.
 std::string Simulation::one_step(Index step, Signals& signals) {
   std::string why;
-  const auto watch = [&](const StepReport& so_far) {
+  StepWatch watch;
+  watch.relaxing = [&](const StepReport& so_far) {
     progress_.relaxing(step_.clock, step + 1, so_far);
     const double wall = seconds_since_start();
     why = trigger_.within_step(wall, {false, signals.stop_requested(), stop_file_.appeared(wall)})
               .why;
     return why.empty();
   };
+  watch.event = [&](double time, const StepReport& so_far) {
+    record_event(step, time);
+    progress_.solving(step_.clock, step + 1, time, so_far);
+    const double wall = seconds_since_start();
+    const CheckpointVerdict verdict = trigger_.at_event(
+        wall, {signals.take_write_request(), signals.stop_requested(), stop_file_.appeared(wall)});
+    if (verdict.action == CheckpointAction::stop) why = verdict.why;
+    if (verdict.action == CheckpointAction::write && write_checkpoint(step) && !verdict.why.empty())
+      progress_.note(verdict.why + ": " + writer_.newest());
+    return why.empty();
+  };
   report_ = stepping_.step(scene_, step_.clock, step, watch);
   if (!report_.finished) return why;
-  if (stepping_.relaxes()) progress_.relaxed(step_.clock, step + 1, report_);
+  if (stepping_.relaxes() || report_.rounds > 0)
+    progress_.increment_done(step_.clock, step + 1, report_);
   return "";
+}
+
+// An equilibrium on the way to the next step.
+void Simulation::record_event(Index step, double time) {
+  events_.collect(scene_, scene_.model(), step + 1);
+  energies_step_ = -1;
+  history_.write(scene_, step, time, finite_energies(step), {});
+  energies_step_ = -1;
+  keep(step);
 }
 
 void Simulation::after_step(Index step) {
@@ -158,11 +181,11 @@ void Simulation::after_step(Index step) {
   write_outputs(step);
   if (stepping_.is_static()) {  // dear enough for a copy: a later increment may fail or be stopped
     finite_energies(step);
-    good_.take(scene_, step, cursors());
+    keep(step);
   }
   if (progress_.due()) {
     const cleave_energies energies = finite_energies(step);
-    if (!stepping_.is_static()) good_.take(scene_, step, cursors());
+    if (!stepping_.is_static()) keep(step);
     progress_.status(scene_.model(), step_.clock, step, energies);
   }
 }
@@ -179,12 +202,17 @@ void Simulation::write_outputs(Index step) {
   if (record && !stepping_.is_static()) keep_good_state(step);
 }
 
+void Simulation::keep(Index step) {
+  good_.take(scene_, step, stepping_.is_static() ? scene_.model().time() : step_.clock.time(step),
+             cursors());
+}
+
 // A copy at every record costs little in a long run and much in one with a record a step.
 void Simulation::keep_good_state(Index step) {
   constexpr double kShare = 0.02;  // of the wall time
   const double begin = progress_.seconds();
   if (snapshot_seconds_ > kShare * begin) return;
-  good_.take(scene_, step, cursors());
+  keep(step);
   snapshot_seconds_ += progress_.seconds() - begin;
 }
 
@@ -206,7 +234,7 @@ bool Simulation::write_checkpoint(Index step) {
   if (!stepping_
            .is_static()) {  // there it is kept already, and the model may be half-way to the next
     finite_energies(step);
-    good_.take(scene_, step, cursors());
+    keep(step);
   }
   const bool written = writer_.write(names_, step, [this](const std::string& path) {
     // The checkpoint counts on these records: they must be on the disk before it is.

@@ -44,6 +44,8 @@ class Simulation {
   bool write_checkpoint(std::int64_t step);
   int stop(std::int64_t step, const std::string& why);
   void keep_good_state(std::int64_t step);
+  void keep(std::int64_t step);
+  void record_event(std::int64_t step, double time);
   // Found once a step. Throws KernelError if the ledger is not finite, which any bad value ends in.
   const cleave_energies& finite_energies(std::int64_t step);
   [[noreturn]] void fail(std::int64_t step, const std::string& what);

@@ -72,7 +72,7 @@ void add_geometry(const BodyGeometry& body, io::ArchiveSource& archive) {
 
 }  // namespace
 
-void Snapshot::take(const Scene& scene, Index step, const Cursors& cursors) {
+void Snapshot::take(const Scene& scene, Index step, double time, const Cursors& cursors) {
   if (state_.empty()) {
     for_fields(scene, CLEAVE_LIFETIME_STATE, [&](Index body, const cleave_field& field) {
       state_.push_back({body, field, {}, {}});
@@ -89,6 +89,7 @@ void Snapshot::take(const Scene& scene, Index step, const Cursors& cursors) {
     }
   }
   step_ = step;
+  time_ = time;
   cursors_ = cursors;
 }
 
@@ -113,7 +114,7 @@ void Snapshot::write(const std::string& path, const Scene& scene, const Clock& c
                         {"units", deck.one("run").text("units")},
                         {"step", step_},
                         {"steps", clock.steps},
-                        {"time", clock.time(step_)},
+                        {"time", time_},
                         {"time_step", clock.dt},
                         {"frames", cursors_.frames},
                         {"history_records", cursors_.history},

@@ -24,7 +24,8 @@ struct Cursors {
 // The state fields of all bodies. Taking it again reuses the memory.
 class Snapshot {
  public:
-  void take(const Scene& scene, std::int64_t step, const Cursors& cursors);
+  // step: the last that is done; time: of the state, later than that step's within a static increment
+  void take(const Scene& scene, std::int64_t step, double time, const Cursors& cursors);
   std::int64_t step() const { return step_; }
   std::int64_t bytes() const;
   // Writes the checkpoint of this moment. Throws io::Error.
@@ -38,6 +39,7 @@ class Snapshot {
     CompactIntegers integers;
   };
   std::int64_t step_ = 0;
+  double time_ = 0;
   Cursors cursors_;
   std::vector<StateField> state_;
 };

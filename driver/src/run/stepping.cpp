@@ -22,13 +22,46 @@ class Slice {
   std::int64_t iterations_ = 4;
 };
 
+std::int32_t breaking_of(const std::string& name) {
+  if (name == "one") return CLEAVE_BREAKING_ONE;
+  return name == "ties" ? CLEAVE_BREAKING_TIES : CLEAVE_BREAKING_ALL;
+}
+
+// The part of an increment that is tried: halved where it does not converge, doubled again after two parts
+// that did.
+class CutBack {
+ public:
+  explicit CutBack(std::int64_t most)
+      : finest_(1.0 / static_cast<double>(std::int64_t{1} << most)) {}
+  double size() const { return size_; }
+  void converged() {
+    if (++converged_ >= 2) size_ = std::min(1.0, 2 * size_);
+  }
+  // Throws KernelError if the status is of another kind, or the part cannot be made smaller.
+  void failed(std::int32_t status) {
+    const bool may_cut = status == CLEAVE_NO_CONVERGENCE || status == CLEAVE_BAD_JACOBIAN;
+    if (!may_cut || size_ / 2 < finest_) check(status);
+    size_ /= 2;
+    converged_ = 0;
+  }
+  void begin_anew() {
+    size_ = 1;
+    converged_ = 0;
+  }
+
+ private:
+  double finest_, size_ = 1;
+  int converged_ = 0;
+};
+
 }  // namespace
 
 Stepping::Stepping(const Deck& deck)
     : static_(deck.one("run").text("mode") == "static"),
       adapt_(deck.one("run").logical("adapt") && deck.one("run").real("time_step") == 0),
       relaxes_(deck.one("static").text("method") == "relaxation"),
-      one_bond_(deck.one("static").text("breaking") == "one"),
+      by_events_(deck.one("static").text("loading") == "events"),
+      breaking_(breaking_of(deck.one("static").text("breaking"))),
       tolerance_(deck.one("static").real("tolerance")),
       max_iterations_(deck.one("static").integer("max_iterations")),
       cut_backs_(deck.one("static").integer("cut_backs")) {
@@ -64,7 +97,9 @@ void Stepping::start(Scene& scene, double dt) const {
 
 StepReport Stepping::step(Scene& scene, const Clock& clock, std::int64_t step,
                           const StepWatch& watch) const {
-  if (static_) return load_increment(scene, clock.time(step), clock.time(step + 1), watch);
+  const double from = clock.time(step), to = clock.time(step + 1);
+  if (static_ && relaxes_) return relax_increment(scene, from, to, watch);
+  if (static_) return solve_increment(scene, from, to, watch);
   explicit_step(scene, clock, step);
   return {};
 }
@@ -94,17 +129,14 @@ void Stepping::explicit_step(Scene& scene, const Clock& clock, std::int64_t step
   }
 }
 
-std::int32_t Stepping::solve(Model& model, double time, StepReport& report) const {
+cleave_static_options Stepping::static_options() const {
   cleave_static_options options{};
   check(cleave_static_options_init(&options));
   if (tolerance_ > 0) options.tolerance = tolerance_;
   if (max_iterations_ > 0) options.max_iterations = static_cast<std::int32_t>(max_iterations_);
-  cleave_static_report done{};
-  done.size = sizeof done;
-  const std::int32_t status = cleave_model_solve_static(model.handle(), time, &options, &done);
-  report.iterations += done.iterations;
-  report.residual = std::max(report.residual, done.residual);
-  return status;
+  options.breaking = breaking_;
+  options.stop_at_limit = by_events_ ? 1 : 0;
+  return options;
 }
 
 std::int32_t Stepping::relax(Model& model, double time, const StepWatch& watch,
@@ -114,10 +146,10 @@ std::int32_t Stepping::relax(Model& model, double time, const StepWatch& watch,
   check(cleave_relaxation_options_init(&options));
   if (tolerance_ > 0) options.tolerance = tolerance_;
   if (max_iterations_ > 0) options.max_iterations = max_iterations_;
-  options.breaking = one_bond_ ? CLEAVE_BREAKING_ONE : CLEAVE_BREAKING_ALL;
+  options.breaking = breaking_;
   Slice slice;
   while (true) {
-    if (watch) options.slice = slice.iterations();
+    if (watch.relaxing) options.slice = slice.iterations();
     cleave_relaxation_report now{};
     now.size = sizeof now;
     const auto begin = WallClock::now();
@@ -131,44 +163,102 @@ std::int32_t Stepping::relax(Model& model, double time, const StepWatch& watch,
       report.finished = true;
       return CLEAVE_OK;
     }
-    if (!watch(so_far)) {
+    if (!watch.relaxing(so_far)) {
       report.finished = false;
       return cleave_model_relax_cancel(model.handle());
     }
   }
 }
 
-// Halves the part of the increment that is tried until it converges; doubles it again after two
-// that did.
-StepReport Stepping::load_increment(Scene& scene, double from, double to,
-                                    const StepWatch& watch) const {
-  Model& model = scene.model();
+void Stepping::put_loads(Scene& scene, double time) const {
+  scene.motions().before_advance(scene.model(), time);
+  scene.forces().apply(scene.model(), time);
+}
+
+StepReport Stepping::relax_increment(Scene& scene, double from, double to,
+                                     const StepWatch& watch) const {
   StepReport report;
-  const double finest = 1.0 / static_cast<double>(std::int64_t{1} << cut_backs_);
-  double done = 0, size = 1;
-  int converged = 0;
+  CutBack part(cut_backs_);
+  double done = 0;
   while (done < 1) {
-    const double target = std::min(1.0, done + size);
+    const double target = std::min(1.0, done + part.size());
     const double time = target == 1.0 ? to : from + target * (to - from);
-    scene.motions().before_advance(model, time);
-    scene.forces().apply(model, time);
-    const std::int32_t status =
-        relaxes_ ? relax(model, time, watch, report) : solve(model, time, report);
+    put_loads(scene, time);
+    const std::int32_t status = relax(scene.model(), time, watch, report);
     if (!report.finished) {
       check(status);
       return report;
     }
     if (status == CLEAVE_OK) {
       done = target;
-      if (++converged >= 2) size = std::min(1.0, 2 * size);
-      continue;
+      part.converged();
+    } else {
+      part.failed(status);
     }
-    const bool may_cut = status == CLEAVE_NO_CONVERGENCE || status == CLEAVE_BAD_JACOBIAN;
-    if (!may_cut || size / 2 < finest) check(status);
-    size /= 2;
-    converged = 0;
   }
   return report;
+}
+
+// In every state that `watch.event` is told of, what follows is found from the state alone, so that a restart
+// goes the same way.                                                                   [ST events]
+StepReport Stepping::solve_increment(Scene& scene, double from, double to,
+                                     const StepWatch& watch) const {
+  constexpr double kLeast = 1e-12;  // of the increment: so much the loads move at least
+  constexpr int kTries = 60;
+  Model& model = scene.model();
+  const cleave_static_options options = static_options();
+  StepReport report;
+  CutBack part(cut_backs_);
+  double now = std::max(from, model.time()), target = now;
+  int tries = 0;         // to find where the first bond reaches its limit
+  bool critical = true;  // or not known
+  const auto take = [&](const cleave_static_report& done) {
+    report.iterations += done.iterations;
+    report.residual = std::max(report.residual, done.residual);
+    report.broken += done.broken;
+    report.rounds += done.broken > 0 ? 1 : 0;
+    critical = done.critical > 0;
+  };
+  const auto tell = [&] {
+    part.begin_anew();
+    report.finished = !watch.event || watch.event(now, report);
+    return report.finished;
+  };
+  while (true) {
+    cleave_static_report done{};
+    done.size = sizeof done;
+    if (critical) {
+      put_loads(scene, now);
+      check(cleave_model_break_static(model.handle(), &options, &done));
+      take(done);
+      if (done.broken > 0 && !tell()) return report;
+      continue;
+    }
+    if (now == to) return report;
+    if (target <= now) target = std::min(to, now + part.size() * (to - from));
+    put_loads(scene, target);
+    const std::int32_t status = cleave_model_solve_static(model.handle(), target, &options, &done);
+    if (status != CLEAVE_OK) {
+      part.failed(status);
+      target = now;
+      continue;
+    }
+    if (done.fraction < 1) {
+      if (++tries > kTries) {
+        throw KernelError(
+            "the loads at which the first bond reaches its limit are not found between times " +
+                number(now, 17) + " and " + number(target, 17),
+            CLEAVE_NO_CONVERGENCE);
+      }
+      target = now + std::max(kLeast * (to - from), done.fraction * (target - now));
+      continue;
+    }
+    take(done);
+    part.converged();
+    tries = 0;
+    now = target;
+    if (critical && !tell()) return report;
+  }
 }
 
 }  // namespace cleave::driver

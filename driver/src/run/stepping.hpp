@@ -13,14 +13,19 @@ namespace cleave::driver {
 
 // What a static increment took, over the parts that it was cut into.
 struct StepReport {
-  bool finished = true;  // false: whoever watches has stopped it, the model is before it
+  bool finished = true;  // false: whoever watches has stopped it
   std::int64_t iterations = 0;
-  std::int64_t rounds = 0, broken = 0;  // relaxation: how often bonds broke, and how many
+  std::int64_t rounds = 0, broken = 0;  // how often bonds broke, and how many
   double residual = 0;                  // relative, the largest of the parts
 };
 
-// Asked several times a second while an increment relaxes; false: stop.
-using StepWatch = std::function<bool(const StepReport& so_far)>;
+// Who is told what happens within an increment, and may stop it by answering false.
+struct StepWatch {
+  // Several times a second while an increment relaxes.
+  std::function<bool(const StepReport& so_far)> relaxing;
+  // Newton's method: an equilibrium in which a bond fails, or after one has; the run can go on from there.
+  std::function<bool(double time, const StepReport& so_far)> event;
+};
 
 class Stepping {
  public:
@@ -38,12 +43,15 @@ class Stepping {
  private:
   static void refuse_dynamics(const Deck& deck);
   void explicit_step(Scene& scene, const Clock& clock, std::int64_t step) const;
-  StepReport load_increment(Scene& scene, double from, double to, const StepWatch& watch) const;
+  void put_loads(Scene& scene, double time) const;
+  StepReport relax_increment(Scene& scene, double from, double to, const StepWatch& watch) const;
+  StepReport solve_increment(Scene& scene, double from, double to, const StepWatch& watch) const;
+  cleave_static_options static_options() const;
   // The status of the kernels; adds to the report.
-  std::int32_t solve(Model& model, double time, StepReport& report) const;
   std::int32_t relax(Model& model, double time, const StepWatch& watch, StepReport& report) const;
 
-  bool static_, adapt_, relaxes_, one_bond_;
+  bool static_, adapt_, relaxes_, by_events_;
+  std::int32_t breaking_;
   double tolerance_;
   std::int64_t max_iterations_, cut_backs_;
 };

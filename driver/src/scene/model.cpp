@@ -30,6 +30,13 @@ std::int64_t Model::add_body(const cleave_body_spec& spec) {
 
 void Model::setup() { check(cleave_model_setup(handle())); }
 
+double Model::time() const {
+  std::int64_t step = 0;
+  double time = 0;
+  check(cleave_model_clock(handle(), &step, &time));
+  return time;
+}
+
 double Model::stable_step() const {
   double step = 0;
   check(cleave_model_stable_step(handle(), &step));

@@ -36,6 +36,7 @@ class Model {
   void setup();
 
   double stable_step() const;
+  double time() const;  // of its clock
   bool is_stable(double dt) const;
   double wave_speed(std::int64_t body) const;
   std::int64_t memory() const;

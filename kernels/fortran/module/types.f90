@@ -118,7 +118,9 @@ module cleave_types
     integer(c_int64_t) :: size = 0
     real(c_double) :: tolerance = 0
     integer(c_int32_t) :: max_iterations = 0
-    integer(c_int32_t) :: reserved = 0
+    integer(c_int32_t) :: stop_at_limit = 0
+    integer(c_int32_t) :: solver = 0
+    integer(c_int32_t) :: breaking = 0
   end type cleave_static_options
 
   type, bind(C), public :: cleave_static_report
@@ -126,6 +128,9 @@ module cleave_types
     integer(c_int64_t) :: iterations = 0
     integer(c_int64_t) :: unknowns = 0
     real(c_double) :: residual = 0
+    real(c_double) :: fraction = 0
+    integer(c_int64_t) :: broken = 0
+    integer(c_int64_t) :: critical = 0
   end type cleave_static_report
 
   type, bind(C), public :: cleave_relaxation_options

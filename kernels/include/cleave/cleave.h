@@ -461,24 +461,47 @@ CLEAVE_API int32_t cleave_model_update(cleave_model* model);
 /* ---- statics: once initialise, then for every load increment motion (displacements at its end),
  * external_force, solve_static.  Newton's method with the consistent tangent; inertia, viscosity and
  * rates play no part; prescribed degrees of freedom go where cleave_body_motion says. */
+enum cleave_solver {
+  CLEAVE_SOLVER_DIRECT = 0 /* the stiffness is factorised */
+};
+enum cleave_breaking {
+  CLEAVE_BREAKING_ALL = 1, /* every bond that fails in an equilibrium */
+  CLEAVE_BREAKING_ONE = 2, /* the one furthest beyond its limit, the first of equals */
+  CLEAVE_BREAKING_TIES = 3 /* that one, and those that are as far beyond within 1e-9 */
+};
 typedef struct cleave_static_options {
   int64_t size;
   double tolerance;       /* norm of the residual over that of all forces; default 1e-9 */
   int32_t max_iterations; /* default 25 */
-  int32_t reserved;
+  int32_t stop_at_limit;  /* 1: go no further than to where a first bond reaches its limit; default 0 */
+  int32_t solver;         /* enum cleave_solver, of the linear systems; default DIRECT */
+  int32_t breaking;       /* enum cleave_breaking, of cleave_model_break_static; default ALL */
 } cleave_static_options;
 typedef struct cleave_static_report {
   int64_t size;
   int64_t iterations; /* the largest of the bodies */
   int64_t unknowns;   /* of all bodies */
   double residual;    /* relative, the largest of the bodies */
+  double fraction;    /* 1: done; less: of the way, see stop_at_limit */
+  int64_t broken;     /* bonds that this call broke */
+  int64_t critical;   /* bonds beyond their limits now, of those that may break */
 } cleave_static_report;
 CLEAVE_API int32_t cleave_static_options_init(cleave_static_options* options);
-/* From the present equilibrium to the next, at time_new (a label: loads are functions of it).
+/* From the present equilibrium to the next, at time_new (a label: loads are functions of it). No bond breaks.
+ * With stop_at_limit and a bond that would be loaded beyond its limit the state stays as it was, and
+ * report->fraction < 1 is the part of the way at which the first one gets there (to first order): move the
+ * loads to there and call again.
  * [in]  options: NULL for the defaults      [out] report: may be NULL; report->size must be set
  * Errors: NO_CONVERGENCE (also BAD_JACOBIAN of the law), the state is as before the call: try a smaller
  * increment; UNSUPPORTED (a body has forces that are not its gradient operator's). */
 CLEAVE_API int32_t cleave_model_solve_static(cleave_model* model, double time_new,
+                                             const cleave_static_options* options,
+                                             cleave_static_report* report);
+/* Breaks bonds that are beyond their limits in the present equilibrium, as options->breaking says, and finds
+ * the next under the same loads, which may fail other bonds: call it until report->broken is 0. Particles
+ * that too few bonds hold lose them all.
+ * Arguments and errors as above: after NO_CONVERGENCE nothing has broken.          theory: relaxation */
+CLEAVE_API int32_t cleave_model_break_static(cleave_model* model,
                                              const cleave_static_options* options,
                                              cleave_static_report* report);
 
@@ -486,10 +509,6 @@ CLEAVE_API int32_t cleave_model_solve_static(cleave_model* model, double time_ne
  * cleave_model_solve_static. No matrix and no tangent: the forces are evaluated many times. One load
  * increment: the boundary and the forces take their new values, the body relaxes to equilibrium, bonds that
  * fail there break, it relaxes again, until nothing fails.                          theory: relaxation */
-enum cleave_breaking {
-  CLEAVE_BREAKING_ALL = 1, /* every bond that fails in an equilibrium */
-  CLEAVE_BREAKING_ONE = 2  /* the one furthest beyond its limit */
-};
 typedef struct cleave_relaxation_options {
   int64_t size;
   double tolerance;       /* norm of the residual over that of all forces; default 1e-6 */

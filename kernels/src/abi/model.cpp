@@ -8,7 +8,6 @@
 #include "core/instruction_set.hpp"
 #include "model/resident.hpp"
 #include "solver/relaxation.hpp"
-#include "solver/static_solver.hpp"
 
 using namespace cleave;
 using namespace cleave::abi;
@@ -312,84 +311,6 @@ int32_t cleave_model_advance(cleave_model* model, double dt, double time_new) {
         Phase::stepping,
         "cleave_model_advance comes after cleave_model_initialise or cleave_model_update");
     advance(*model, dt, time_new);
-  });
-}
-
-int32_t cleave_static_options_init(cleave_static_options* options) {
-  return guarded("cleave_static_options_init", [&] {
-    const StaticOptions defaults;
-    required(options, "options") = {sizeof(cleave_static_options), defaults.tolerance,
-                                    defaults.max_iterations, 0};
-  });
-}
-
-int32_t cleave_model_solve_static(cleave_model* model, double time_new,
-                                  const cleave_static_options* options,
-                                  cleave_static_report* report) {
-  return guarded("cleave_model_solve_static", [&] {
-    checked(model).require(Phase::stepping,
-                           "statics start after cleave_model_initialise, between two steps");
-    if (report != nullptr) fill_sized(report, cleave_static_report{}, "report");
-    StaticOptions wanted;
-    if (options != nullptr) {
-      check_size(*options, "cleave_static_options");
-      wanted = {options->tolerance, options->max_iterations};
-    }
-    const StaticReport done = solve_static(*model, time_new, wanted);
-    if (report != nullptr) {
-      fill_sized(report, cleave_static_report{0, done.iterations, done.unknowns, done.residual},
-                 "report");
-    }
-  });
-}
-
-int32_t cleave_relaxation_options_init(cleave_relaxation_options* options) {
-  return guarded("cleave_relaxation_options_init", [&] {
-    const RelaxationOptions defaults;
-    required(options, "options") = {sizeof(cleave_relaxation_options),
-                                    defaults.tolerance,
-                                    defaults.max_iterations,
-                                    defaults.slice,
-                                    CLEAVE_BREAKING_ALL,
-                                    0};
-  });
-}
-
-int32_t cleave_model_relax(cleave_model* model, double time_new,
-                           const cleave_relaxation_options* options,
-                           cleave_relaxation_report* report) {
-  return guarded("cleave_model_relax", [&] {
-    if (checked(model).phase != Phase::relaxing)
-      model->require(Phase::stepping,
-                     "statics start after cleave_model_initialise, between two steps");
-    if (report != nullptr) fill_sized(report, cleave_relaxation_report{}, "report");
-    RelaxationOptions wanted;
-    if (options != nullptr) {
-      check_size(*options, "cleave_relaxation_options");
-      if (options->breaking != CLEAVE_BREAKING_ALL && options->breaking != CLEAVE_BREAKING_ONE) {
-        throw Error(CLEAVE_BAD_ARGUMENT,
-                    text("breaking is ", options->breaking,
-                         "; allowed: CLEAVE_BREAKING_ALL, CLEAVE_BREAKING_ONE"));
-      }
-      wanted = {options->tolerance, options->max_iterations, options->slice,
-                options->breaking == CLEAVE_BREAKING_ONE};
-    }
-    const RelaxationReport now = relax(*model, time_new, wanted);
-    if (report != nullptr) {
-      fill_sized(report,
-                 cleave_relaxation_report{0, now.iterations, now.rounds, now.broken, now.unknowns,
-                                          now.finished ? 1 : 0, now.residual},
-                 "report");
-    }
-  });
-}
-
-int32_t cleave_model_relax_cancel(cleave_model* model) {
-  return guarded("cleave_model_relax_cancel", [&] {
-    checked(model).require(Phase::relaxing,
-                           "nothing is being relaxed; only a call of cleave_model_relax that "
-                           "returned with finished = 0 can be cancelled");
-    cancel_relaxation(*model);
   });
 }
 

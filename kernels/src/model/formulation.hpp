@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "cleave/cleave.h"
 #include "core/gradient_operator.hpp"
@@ -36,6 +37,29 @@ class StiffnessSink {
  public:
   virtual ~StiffnessSink() = default;
   virtual void add(std::span<const std::int32_t> particles, const double* matrix) = 0;
+};
+
+// What one bond took with it when it broke: K_after = K_before + V W V^T.
+struct StiffnessChange {
+  struct Column {  // of V; particles may come more than once
+    std::vector<std::int32_t> particles;
+    std::vector<double> values;  // (D, count)
+  };
+  std::vector<Column> columns;
+  std::vector<double> weight;  // W, (columns, columns), symmetric
+};
+
+// Which of the bonds break that fail in an equilibrium.
+enum class Breaking {
+  all,
+  one,  // the one furthest beyond its limit, the first of equals
+  ties  // that one, and those as far beyond within 1e-9
+};
+
+// A bond that is beyond its limit, and how far: 1 at the limit, in proportion to the loads.
+struct CriticalBond {
+  std::int32_t bond;
+  double ratio;
 };
 
 class Formulation {
@@ -70,6 +94,14 @@ class Formulation {
   virtual bool has_stiffness() const { return false; }
   virtual void add_stiffness(const Body&, StiffnessSink&) const {}
   virtual bool holds(const Body&, std::int64_t) const { return true; }
+  // Whether that depends on nothing but on which bonds carry. Then bonds have numbers in the order in which they
+  // broke, from 1, and these are known: how many there are, the stiffness when the first so many had broken,
+  // and what one of them took with it; an end that lost all its bonds is from then on held by itself.
+  virtual bool constant_stiffness() const { return false; }
+  virtual std::int64_t broken_bonds() const { return 0; }
+  virtual void add_stiffness_after(const Body&, std::int64_t, StiffnessSink&) const {}
+  virtual bool held_after(const Body&, std::int64_t, std::int64_t) const { return true; }
+  virtual void stiffness_change(const Body&, std::int64_t, StiffnessChange&) const {}
   // What the static solver would miss, as a sentence; empty: nothing.
   virtual std::string static_obstacle(const Body&) const { return {}; }
 
@@ -80,9 +112,17 @@ class Formulation {
   virtual void stiffness_bound(const Body& body, ThreadTeam& team, std::span<double> bound);
   // What dynamic relaxation would miss, as a sentence; empty: nothing.
   virtual std::string relaxation_obstacle(const Body&) const { return {}; }
-  // As break_bonds, for the one bond that is furthest beyond its limit; the first of equals. False: this
-  // formulation breaks bonds and cannot choose among them.
-  virtual bool break_most_critical(Body&, const Clock&, ThreadTeam&) { return false; }
+  // As break_bonds, for the bond that is furthest beyond its limit and the ties. False: this formulation breaks
+  // bonds and cannot choose among them.
+  virtual bool break_most_critical(Body&, const Clock&, ThreadTeam&, Breaking) { return false; }
+  // Bonds beyond their limits at the present positions, in their order; and the ratio of one of them.
+  virtual void find_critical(Body&, ThreadTeam&, std::vector<CriticalBond>& found) {
+    found.clear();
+  }
+  virtual double critical_ratio(const Body&, std::int32_t) const { return 0; }
+  // Breaks all bonds of particles that fewer independent bonds hold than there are directions, until there are
+  // none: a matrix with them would be singular.
+  virtual void release_loose(Body&, const Clock&, ThreadTeam&) {}
 
   // The parts of a step, in this order.
   virtual void break_bonds(Body& body, const Clock& clock, ThreadTeam& team) = 0;

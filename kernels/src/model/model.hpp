@@ -10,8 +10,9 @@
 #include "model/body.hpp"
 
 namespace cleave {
+class KeptStiffness;
 class Relaxation;
-}
+}  // namespace cleave
 
 // The opaque type of the interface.
 struct cleave_model {
@@ -25,6 +26,8 @@ struct cleave_model {
   cleave::Clock clock;
   std::vector<std::unique_ptr<cleave::Body>> bodies;
   std::unique_ptr<cleave::Relaxation> relaxation;  // in phase relaxing
+  // Of bodies with a constant one, for the static solver; empty where it has to be found anew.
+  std::vector<std::unique_ptr<cleave::KeptStiffness>> stiffness;
 
   cleave_model();
   ~cleave_model();

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "model/resident.hpp"
+#include "solver/kept_stiffness.hpp"
 
 namespace cleave {
 
@@ -156,9 +157,9 @@ void BodyRelaxation::book() {
 bool BodyRelaxation::break_bonds() {
   ramp_ = 0;
   const std::size_t before = body_.events.size();
-  if (!options_.one_bond) {
+  if (options_.breaking == Breaking::all) {
     body_.formulation->break_bonds(body_, clock_, team_);
-  } else if (!body_.formulation->break_most_critical(body_, clock_, team_)) {
+  } else if (!body_.formulation->break_most_critical(body_, clock_, team_, options_.breaking)) {
     throw Error(CLEAVE_UNSUPPORTED, text(body_.label(), ": formulation ", body_.formulation->name(),
                                          " cannot break one bond at a time; break all that fail"));
   }
@@ -242,6 +243,7 @@ RelaxationReport relax(cleave_model& model, double time_new, const RelaxationOpt
   }
   const auto end = [&model] {
     model.relaxation.reset();
+    model.stiffness.clear();
     model.phase = Phase::stepping;
   };
   try {
@@ -259,6 +261,7 @@ RelaxationReport relax(cleave_model& model, double time_new, const RelaxationOpt
 void cancel_relaxation(cleave_model& model) {
   model.relaxation->cancel();
   model.relaxation.reset();
+  model.stiffness.clear();
   model.phase = cleave_model::Phase::stepping;
 }
 

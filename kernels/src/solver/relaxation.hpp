@@ -18,7 +18,7 @@ struct RelaxationOptions {
   double tolerance = 1e-6;               // on the norm of the residual over that of all forces
   std::int64_t max_iterations = 100000;  // of one relaxation
   std::int64_t slice = 0;                // iterations of one call; 0: until it is done
-  bool one_bond = false;                 // break the most critical bond alone, then relax
+  Breaking breaking = Breaking::all;
 };
 
 struct RelaxationReport {

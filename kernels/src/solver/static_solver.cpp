@@ -1,7 +1,5 @@
 #include "solver/static_solver.hpp"
 
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseLU>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -9,212 +7,163 @@
 
 #include "model/resident.hpp"
 #include "solver/increment.hpp"
-#include "solver/stiffness.hpp"
+#include "solver/newton.hpp"
 
 namespace cleave {
 
 namespace {
 
-using Vector = Eigen::VectorXd;
+// A bond this much beyond its limit is at it: forces are known that well.
+constexpr double kAtLimit = 1e-6;
+// Where the loads are moved to, so that rounding does not leave the bond below.
+constexpr double kBeyond = 1e-9;
 
-Error no_convergence(const Body& body, const std::string& why) {
-  return Error(CLEAVE_NO_CONVERGENCE,
-               text(body.label(), ": no equilibrium: ", why, "; use a smaller load increment"));
+void check_options(const StaticOptions& options) {
+  if (options.tolerance > 0 && options.max_iterations >= 1) return;
+  throw Error(CLEAVE_BAD_ARGUMENT, text("tolerance is ", options.tolerance, ", max_iterations ",
+                                        options.max_iterations, "; allowed: > 0 and >= 1"));
 }
 
-class Newton {
- public:
-  Newton(Body& body, const Clock& clock, ThreadTeam& team, const StaticOptions& options)
-      : body_(body),
-        clock_(clock),
-        team_(team),
-        options_(options),
-        g_(body.formulation->gradient_operator(team)),
-        committed_(body),
-        equations_(body, g_),
-        displacement_(committed_.values("displacement")),
-        external_(committed_.values("external_force")) {}
-
-  void solve() {
-    unbalanced_ = 0;
-    prescribe_change();
-    evaluate(displacement_);
-    Vector r = residual();
-    double norm = r.norm();
-    bool first = true;
-    for (iterations = 0;; ++iterations) {
-      const double scale = force_scale(body_, committed_);
-      relative = scale > 0 && norm > kRounding * unbalanced_ ? norm / scale : 0.0;
-      if (!first && relative <= options_.tolerance) break;
-      if (iterations == options_.max_iterations) {
-        throw no_convergence(body_, text("residual ", relative, " of the forces after ", iterations,
-                                         " iterations, wanted ", options_.tolerance));
-      }
-      const Vector change = direction(r, first);
-      norm = search(change, norm, first);
-      r = residual();
-      first = false;
-    }
-    book_works(body_, committed_, [this](std::size_t c) { return equations_.of[c] >= 0; });
+void check_body(Body& body) {
+  take_fields(body);
+  if (!body.formulation->has_gradient_operator() && !body.formulation->has_stiffness()) {
+    throw Error(CLEAVE_UNSUPPORTED, text(body.label(), ": formulation ", body.formulation->name(),
+                                         " has no stiffness matrix to solve with; use relaxation"));
   }
+  const std::string obstacle = body.formulation->static_obstacle(body);
+  if (obstacle.empty()) return;
+  throw Error(CLEAVE_UNSUPPORTED,
+              text(body.label(), ": the static solver cannot be used: ", obstacle));
+}
 
-  const Committed& committed() const { return committed_; }
-  std::int64_t unknowns() const { return equations_.count; }
-  std::int64_t iterations = 0;
-  double relative = 0;
+KeptStiffness& kept_of(cleave_model& model, std::size_t body) {
+  model.stiffness.resize(model.bodies.size());
+  auto& kept = model.stiffness[body];
+  if (kept == nullptr) kept = std::make_unique<KeptStiffness>();
+  return *kept;
+}
+
+// Bonds of the bodies that are beyond their limits.
+class CriticalBonds {
+ public:
+  explicit CriticalBonds(cleave_model& model) : found_(model.bodies.size()) {
+    for (std::size_t b = 0; b < found_.size(); ++b) {
+      Body& body = *model.bodies[b];
+      body.formulation->find_critical(body, model.team, found_[b]);
+      for (const CriticalBond& bond : found_[b]) largest_ = std::fmax(largest_, bond.ratio);
+      count_ += std::ssize(found_[b]);
+    }
+  }
+  std::int64_t count() const { return count_; }
+  bool beyond_tolerance() const { return largest_ > 1 + kAtLimit; }
+  // Of the way, in the state before.
+  double fraction(const cleave_model& model) const {
+    double least = 1;
+    for (std::size_t b = 0; b < found_.size(); ++b) {
+      const Body& body = *model.bodies[b];
+      for (const CriticalBond& bond : found_[b]) {
+        const double before = body.formulation->critical_ratio(body, bond.bond);
+        least = std::fmin(least, (1 + kBeyond - before) / (bond.ratio - before));
+      }
+    }
+    return std::fmax(least, 0.0);
+  }
 
  private:
-  // (3,n) jump of the prescribed displacements, taken with the first correction.
-  void prescribe_change() {
-    jump_.assign(displacement_.size(), 0.0);
-    for (const auto& dof : body_.prescribed) {
-      const auto c = static_cast<std::size_t>(kVector * dof.particle + dof.direction);
-      jump_[c] = dof.displacement - displacement_[c];
-    }
-  }
-
-  // Stress and force at displacement u from the committed history. Throws BAD_JACOBIAN.
-  void evaluate(const std::vector<double>& u) {
-    committed_.restore();
-    for (std::size_t c = 0; c < u.size(); ++c) {
-      body_.point.u[c] = u[c];
-      body_.point.x[c] = body_.point.X[c] + u[c];
-      body_.point.v[c] = 0;
-      body_.point.a[c] = 0;
-    }
-    body_.formulation->deform(body_, clock_, team_);
-    body_.formulation->forces(body_, team_);
-  }
-
-  Vector residual() const {
-    Vector r(equations_.count);
-    for (std::size_t c = 0; c < equations_.of.size(); ++c) {
-      if (equations_.of[c] >= 0) r[equations_.of[c]] = body_.point.internal[c] + external_[c];
-    }
-    return r;
-  }
-
-  // K change = r - K_fixed jump.
-  Vector direction(Vector r, bool with_jump) {
-    Stiffness k;
-    if (!assemble(body_, g_, committed_.history(), equations_, k))
-      throw no_convergence(body_, "the law has no tangent");
-    if (with_jump) {
-      for (const auto& entry : k.fix)
-        r[entry.row()] -= entry.value() * jump_[static_cast<std::size_t>(entry.col())];
-      unbalanced_ = r.norm();
-    }
-    constexpr double kSymmetric = 1e-7;  // difference tangents are good to 1e-8
-    if (k.asymmetry <= kSymmetric) {
-      if (!analysed_) symmetric_.analyzePattern(k.free);
-      analysed_ = true;
-      symmetric_.factorize(k.free);
-      if (symmetric_.info() == Eigen::Success && well_conditioned(symmetric_.vectorD()))
-        return symmetric_.solve(r);
-    }
-    Eigen::SparseLU<SparseMatrix> general(k.free);
-    if (general.info() != Eigen::Success) throw singular();
-    return general.solve(r);
-  }
-
-  bool well_conditioned(const Vector& pivots) const {
-    if (pivots.size() == 0) return true;
-    const double most = pivots.cwiseAbs().maxCoeff();
-    if (!(pivots.cwiseAbs().minCoeff() > 1e-14 * most)) throw singular();
-    return true;
-  }
-  Error singular() const {
-    return Error(CLEAVE_NO_CONVERGENCE,
-                 text(body_.label(),
-                      ": the stiffness is singular: the body, or a part of it, can move without "
-                      "resistance; prescribe displacements that hold it"));
-  }
-
-  // Takes the change, halved until the law has an answer and the residual does not grow (the first
-  // correction moves the boundary: it may). Returns the norm of the residual.
-  double search(const Vector& change, double norm, bool with_jump) {
-    constexpr int kHalvings = 6;
-    double factor = 1;
-    std::string why;
-    for (int k = 0; k <= kHalvings; ++k, factor *= 0.5) {
-      std::vector<double> u = displacement_;
-      for (std::size_t c = 0; c < u.size(); ++c) {
-        if (equations_.of[c] >= 0) u[c] += factor * change[equations_.of[c]];
-        if (with_jump) u[c] += jump_[c];
-      }
-      try {
-        evaluate(u);
-      } catch (const Error& error) {
-        why = error.what();
-        if (with_jump) break;  // half of the way would not end where the loads ask for
-        continue;
-      }
-      const double now = residual().norm();
-      if (with_jump || now <= norm || k == kHalvings) {
-        displacement_ = std::move(u);
-        return now;
-      }
-    }
-    throw no_convergence(body_, why.empty() ? "the line search found no smaller residual" : why);
-  }
-
-  Body& body_;
-  Clock clock_;
-  ThreadTeam& team_;
-  StaticOptions options_;
-  const GradientOperator* g_;  // NULL: the formulation gives its stiffness itself
-  Committed committed_;
-  Equations equations_;
-  std::vector<double> displacement_;  // (3,n) of the last accepted trial
-  std::vector<double> external_;      // (3,n)
-  std::vector<double> jump_;
-  // What the increment would leave unbalanced if only the prescribed particles moved [N]. A body that is
-  // moved without strain has no other force; its residual is rounding of this one.
-  static constexpr double kRounding = 1e-13;
-  double unbalanced_ = 0;
-  Eigen::SimplicialLDLT<SparseMatrix> symmetric_;
-  bool analysed_ = false;
+  std::vector<std::vector<CriticalBond>> found_;
+  std::int64_t count_ = 0;
+  double largest_ = 0;
 };
+
+// The state of all bodies before a call, to come back to.
+class Before {
+ public:
+  explicit Before(cleave_model& model) : model_(model) {
+    for (auto& body : model.bodies) states_.push_back(std::make_unique<Committed>(*body));
+  }
+  void restore() const {
+    for (const auto& state : states_) state->restore_all(model_.team);
+  }
+
+ private:
+  cleave_model& model_;
+  std::vector<std::unique_ptr<Committed>> states_;
+};
+
+void add(StaticReport& report, const Newton& newton) {
+  report.iterations = std::max(report.iterations, newton.iterations());
+  report.residual = std::fmax(report.residual, newton.residual());
+  report.unknowns += newton.unknowns();
+}
+
+// Which bonds break, and whose number is returned.
+std::int64_t break_in(Body& body, const Clock& clock, ThreadTeam& team, Breaking breaking) {
+  const std::size_t before = body.events.size();
+  if (breaking == Breaking::all) {
+    body.formulation->break_bonds(body, clock, team);
+  } else if (!body.formulation->break_most_critical(body, clock, team, breaking)) {
+    throw Error(CLEAVE_UNSUPPORTED, text(body.label(), ": formulation ", body.formulation->name(),
+                                         " cannot break one bond at a time; break all that fail"));
+  }
+  if (body.events.size() > before) body.formulation->release_loose(body, clock, team);
+  return static_cast<std::int64_t>(body.events.size() - before);
+}
+
+template <class Solve>
+StaticReport attempt(cleave_model& model, const StaticOptions& options, const Solve& solve) {
+  check_options(options);
+  for (auto& body : model.bodies) check_body(*body);
+  const Before before(model);
+  try {
+    return solve(before);
+  } catch (...) {
+    before.restore();
+    model.stiffness.clear();  // it may have followed bonds that are whole again
+    throw;
+  }
+}
 
 }  // namespace
 
 StaticReport solve_static(cleave_model& model, double time_new, const StaticOptions& options) {
-  if (!(options.tolerance > 0) || options.max_iterations < 1) {
-    throw Error(CLEAVE_BAD_ARGUMENT, text("tolerance is ", options.tolerance, ", max_iterations ",
-                                          options.max_iterations, "; allowed: > 0 and >= 1"));
-  }
-  for (auto& body : model.bodies) {
-    take_fields(*body);
-    if (!body->formulation->has_gradient_operator() && !body->formulation->has_stiffness()) {
-      throw Error(CLEAVE_UNSUPPORTED,
-                  text(body->label(), ": formulation ", body->formulation->name(),
-                       " has no stiffness matrix to solve with; use relaxation"));
+  return attempt(model, options, [&](const Before& before) {
+    const Clock clock{model.clock.step + 1, time_new, 0};
+    StaticReport report;
+    for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+      start_ledger(*model.bodies[b]);
+      Newton newton(*model.bodies[b], clock, model.team, options, kept_of(model, b));
+      newton.load();
+      add(report, newton);
     }
-    const std::string obstacle = body->formulation->static_obstacle(*body);
-    if (!obstacle.empty()) {
-      throw Error(CLEAVE_UNSUPPORTED,
-                  text(body->label(), ": the static solver cannot be used: ", obstacle));
+    const CriticalBonds bonds(model);
+    report.critical = bonds.count();
+    if (options.stop_at_limit && bonds.beyond_tolerance()) {
+      before.restore();
+      report.fraction = bonds.fraction(model);
+      return report;
     }
-  }
-  const Clock clock{model.clock.step + 1, time_new, 0};
-  StaticReport report;
-  std::vector<std::unique_ptr<Newton>> done;
-  try {
-    for (auto& body : model.bodies) {
-      start_ledger(*body);
-      done.push_back(std::make_unique<Newton>(*body, clock, model.team, options));
-      Newton& newton = *done.back();
-      newton.solve();
-      report.iterations = std::max(report.iterations, newton.iterations);
-      report.residual = std::fmax(report.residual, newton.relative);
-      report.unknowns += newton.unknowns();
+    model.clock = clock;
+    return report;
+  });
+}
+
+StaticReport break_static(cleave_model& model, const StaticOptions& options) {
+  return attempt(model, options, [&](const Before&) {
+    const Clock clock{model.clock.step + 1, model.clock.time, 0};
+    StaticReport report;
+    for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+      Body& body = *model.bodies[b];
+      const std::int64_t broken = break_in(body, clock, model.team, options.breaking);
+      if (broken == 0) continue;
+      report.broken += broken;
+      Newton newton(body, clock, model.team, options, kept_of(model, b));
+      newton.settle();
+      add(report, newton);
     }
-  } catch (...) {
-    for (const auto& newton : done) newton->committed().restore_all(model.team);
-    throw;
-  }
-  model.clock = clock;
-  return report;
+    if (report.broken > 0) model.clock = clock;
+    report.critical = CriticalBonds(model).count();
+    return report;
+  });
 }
 
 }  // namespace cleave

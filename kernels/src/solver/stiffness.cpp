@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "material/tangent.hpp"
 
 namespace cleave {
 
 namespace {
+
+constexpr std::int32_t kFree = 0;
 
 // The particles of a row with all weights, the point's own included.
 template <int D>
@@ -80,6 +83,26 @@ class Parts final : public StiffnessSink {
   int dimension_;
 };
 
+// Which particles hang together: every one is in the piece of its root.
+class Pieces final : public StiffnessSink {
+ public:
+  explicit Pieces(std::int64_t particles) : above_(static_cast<std::size_t>(particles)) {
+    std::iota(above_.begin(), above_.end(), 0);
+  }
+  void add(std::span<const std::int32_t> particles, const double*) override {
+    const std::int32_t first = root(particles.front());
+    for (const std::int32_t p : particles) above_[static_cast<std::size_t>(root(p))] = first;
+  }
+  std::int32_t root(std::int32_t i) {
+    while (above(i) != i) i = above(i) = above(above(i));
+    return i;
+  }
+
+ private:
+  std::int32_t& above(std::int32_t i) { return above_[static_cast<std::size_t>(i)]; }
+  std::vector<std::int32_t> above_;
+};
+
 template <int D>
 void add_row(const Row<D>& row, const Tangent<D>& tangent, double volume, Entries& entries) {
   const std::size_t count = row.particle.size();
@@ -134,13 +157,35 @@ bool assemble_in(const Body& body, const GradientOperator& g, const HistoryArray
 
 Equations::Equations(const Body& body, const GradientOperator* g)
     : of(static_cast<std::size_t>(kVector * body.particles), -1) {
-  constexpr std::int32_t kFree = 0;
   const int d = body.dimension();
   for (std::int64_t i = 0; i < body.particles; ++i) {
     const bool carried =
         g == nullptr ? body.formulation->holds(body, i) : !g->of_particles() || g->volume[i] > 0;
     for (int k = 0; k < d && carried; ++k) of[static_cast<std::size_t>(kVector * i + k)] = kFree;
   }
+  number(body);
+}
+
+Equations::Equations(const Body& body, std::int64_t broken)
+    : of(static_cast<std::size_t>(kVector * body.particles), -1) {
+  Pieces pieces(body.particles);
+  std::vector<char> held(static_cast<std::size_t>(body.particles), broken == 0 ? 1 : 0);
+  if (broken > 0 && !body.prescribed.empty()) {
+    body.formulation->add_stiffness_after(body, broken, pieces);
+    for (const auto& dof : body.prescribed)
+      held[static_cast<std::size_t>(pieces.root(dof.particle))] = 1;
+  }
+  for (std::int64_t i = 0; i < body.particles; ++i) {
+    if (held[static_cast<std::size_t>(pieces.root(static_cast<std::int32_t>(i)))] == 0 ||
+        !body.formulation->held_after(body, broken, i))
+      continue;
+    for (int k = 0; k < body.dimension(); ++k)
+      of[static_cast<std::size_t>(kVector * i + k)] = kFree;
+  }
+  number(body);
+}
+
+void Equations::number(const Body& body) {
   for (const auto& dof : body.prescribed)
     of[static_cast<std::size_t>(kVector * dof.particle + dof.direction)] = -1;
   for (auto& equation : of) {
@@ -162,6 +207,27 @@ bool assemble(const Body& body, const GradientOperator* g, const HistoryArrays& 
   }
   if (known) entries.finish();
   return known;
+}
+
+void assemble_after(const Body& body, std::int64_t broken, const Equations& equations,
+                    Stiffness& k) {
+  Entries entries(equations, k);
+  Parts parts(entries, body.dimension());
+  body.formulation->add_stiffness_after(body, broken, parts);
+  entries.finish();
+}
+
+Error singular(const Body& body, const Equations& equations, std::int64_t equation) {
+  const auto place = std::find(equations.of.begin(), equations.of.end(), equation);
+  std::string where;
+  if (equation >= 0 && place != equations.of.end()) {
+    const std::int64_t dof = place - equations.of.begin();
+    where =
+        text(" (", body.particle_label(dof / kVector), " in ", "xyz"[dof % kVector], ", for one)");
+  }
+  return Error(CLEAVE_NO_CONVERGENCE,
+               text(body.label(), ": the stiffness is singular: the body, or a part of it", where,
+                    ", can move without resistance; prescribe displacements that hold it"));
 }
 
 }  // namespace cleave

@@ -8,19 +8,25 @@
 #include <vector>
 
 #include "model/body.hpp"
+#include "solver/linear_solver.hpp"
 
 namespace cleave {
 
 // Numbers of the equations: -1 for a degree of freedom that is prescribed, has no stiffness, or lies
 // out of the plane.
 struct Equations {
+  Equations() = default;
   // g: NULL for a formulation without it.
   Equations(const Body& body, const GradientOperator* g);
+  // Of a formulation with a constant stiffness, when so many bonds had broken. Pieces that breaking has cut off
+  // from all that is prescribed have no equations either: they stay where they are.
+  Equations(const Body& body, std::int64_t broken);
   std::vector<std::int32_t> of;  // (3,n)
   std::int64_t count = 0;
-};
 
-using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, std::int32_t>;
+ private:
+  void number(const Body& body);
+};
 
 struct Stiffness {
   SparseMatrix free;                        // (count, count), both triangles
@@ -31,5 +37,11 @@ struct Stiffness {
 // From the present positions and the committed history. False if a law has no tangent there.
 bool assemble(const Body& body, const GradientOperator* g, const HistoryArrays& committed,
               const Equations& equations, Stiffness& k);
+// Of a constant stiffness, when so many bonds had broken.
+void assemble_after(const Body& body, std::int64_t broken, const Equations& equations,
+                    Stiffness& k);
+
+// That the stiffness is singular; equation: one that nothing resists, or kNoEquation.
+Error singular(const Body& body, const Equations& equations, std::int64_t equation);
 
 }  // namespace cleave

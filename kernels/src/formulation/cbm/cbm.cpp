@@ -167,8 +167,9 @@ void ContinuumBondMethod::break_bonds(Body& body, const Clock& clock, ThreadTeam
   fracture_.step(body, network_, stabilisation_, clock, team);
 }
 
-bool ContinuumBondMethod::break_most_critical(Body& body, const Clock& clock, ThreadTeam& team) {
-  fracture_.step_one(body, network_, stabilisation_, clock, team);
+bool ContinuumBondMethod::break_most_critical(Body& body, const Clock& clock, ThreadTeam& team,
+                                              Breaking which) {
+  fracture_.step_some(body, network_, stabilisation_, clock, team, which);
   return true;
 }
 

@@ -28,7 +28,8 @@ class ContinuumBondMethod final : public Formulation {
   void stiffness_bound(const Body& body, ThreadTeam& team, std::span<double> bound) override;
 
   void break_bonds(Body& body, const Clock& clock, ThreadTeam& team) override;
-  bool break_most_critical(Body& body, const Clock& clock, ThreadTeam& team) override;
+  bool break_most_critical(Body& body, const Clock& clock, ThreadTeam& team,
+                           Breaking which) override;
   void deform(Body& body, const Clock& clock, ThreadTeam& team) override;
   void forces(Body& body, ThreadTeam& team) override;
   void precrack(Body& body, std::span<const std::int64_t> pairs) override;

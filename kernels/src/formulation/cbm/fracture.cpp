@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "formulation/common/critical_bonds.hpp"
 #include "formulation/common/stress_points.hpp"
 
 namespace cleave::cbm {
@@ -354,20 +355,20 @@ void Fracture::step(Body& body, Network& network, const Stabilisation& stabilisa
   step(body, network, stabilisation, clock, broken_, state_of_fields(body));
 }
 
-void Fracture::step_one(Body& body, Network& network, const Stabilisation& stabilisation,
-                        const Clock& clock, ThreadTeam& team) {
+void Fracture::step_some(Body& body, Network& network, const Stabilisation& stabilisation,
+                         const Clock& clock, ThreadTeam& team, Breaking which) {
   if (!active_) return;
   find_broken(body, network, team);
   if (broken_.empty()) return;
   const ParticleState state = state_of_fields(body);
-  const auto excess = [&](std::int32_t bond) {
+  std::vector<CriticalBond> found;
+  for (const std::int32_t bond : broken_) {
     const auto [i, p] = network.ends(bond);
-    return elongation(network, state, i, p) / network.critical[bond];
-  };
-  const std::int32_t first =
-      *std::max_element(broken_.begin(), broken_.end(),
-                        [&](std::int32_t a, std::int32_t b) { return excess(a) < excess(b); });
-  broken_.assign(1, first);
+    found.push_back({bond, elongation(network, state, i, p) / network.critical[bond]});
+  }
+  keep_most_critical(found, which);
+  broken_.clear();
+  for (const CriticalBond& chosen : found) broken_.push_back(chosen.bond);
   step(body, network, stabilisation, clock, broken_, state);
 }
 

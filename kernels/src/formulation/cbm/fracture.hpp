@@ -32,9 +32,9 @@ class Fracture {
   void setup(const Body& body, const Network& network);
   void step(Body& body, Network& network, const Stabilisation& stabilisation, const Clock& clock,
             ThreadTeam& team);
-  // The same for the bond with the largest elongation over its limit alone; the first of equals.
-  void step_one(Body& body, Network& network, const Stabilisation& stabilisation,
-                const Clock& clock, ThreadTeam& team);
+  // The same for those of the bonds with the largest elongations over their limits.
+  void step_some(Body& body, Network& network, const Stabilisation& stabilisation,
+                 const Clock& clock, ThreadTeam& team, Breaking which);
   // The same for bonds found elsewhere, ascending. Returns the particles that lost a simplex, ascending;
   // valid until the next call.
   std::span<const std::int32_t> step(Body& body, Network& network,

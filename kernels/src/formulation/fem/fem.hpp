@@ -23,7 +23,7 @@ class FiniteElements final : public Formulation {
   void stiffness_bound(const Body& body, ThreadTeam& team, std::span<double> bound) override;
 
   void break_bonds(Body&, const Clock&, ThreadTeam&) override {}
-  bool break_most_critical(Body&, const Clock&, ThreadTeam&) override { return true; }
+  bool break_most_critical(Body&, const Clock&, ThreadTeam&, Breaking) override { return true; }
   void deform(Body& body, const Clock& clock, ThreadTeam& team) override;
   void forces(Body& body, ThreadTeam& team) override;
   void precrack(Body& body, std::span<const std::int64_t> pairs) override;

@@ -27,7 +27,7 @@ class KernelMethod : public Formulation {
   std::string relaxation_obstacle(const Body& body) const override;
 
   void break_bonds(Body&, const Clock&, ThreadTeam&) override {}
-  bool break_most_critical(Body&, const Clock&, ThreadTeam&) override { return true; }
+  bool break_most_critical(Body&, const Clock&, ThreadTeam&, Breaking) override { return true; }
   void deform(Body& body, const Clock& clock, ThreadTeam& team) override;
   void forces(Body& body, ThreadTeam& team) override;
   void precrack(Body& body, std::span<const std::int64_t> pairs) override;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/instruction_set.hpp"
+#include "formulation/common/critical_bonds.hpp"
 #include "formulation/common/unused_groups.hpp"
 #include "tables/tables.hpp"
 
@@ -164,22 +165,28 @@ void Peridynamic::break_bonds(Body& body, const Clock& clock, ThreadTeam& team) 
   if (!broken_.empty()) break_found(body, clock, team);
 }
 
-bool Peridynamic::break_most_critical(Body& body, const Clock& clock, ThreadTeam& team) {
-  find_broken(body, team);
-  if (broken_.empty()) return true;
-  double largest = -1;
-  std::int32_t chosen = broken_.front();
-  for (const std::int32_t bond : broken_) {
-    hood_.for_bonds(bond, bond + 1,
-                    [&](std::int32_t, std::int64_t i, std::int32_t p, std::int32_t) {
-                      const double s = severity(body, i, p) / damage_.limit(i, p);
-                      if (s > largest) chosen = bond;
-                      largest = std::fmax(largest, s);
-                    });
-  }
-  broken_.assign(1, chosen);
-  break_found(body, clock, team);
+bool Peridynamic::break_most_critical(Body& body, const Clock& clock, ThreadTeam& team,
+                                      Breaking which) {
+  find_critical(body, team, critical_);
+  keep_most_critical(critical_, which);
+  broken_.clear();
+  for (const CriticalBond& bond : critical_) broken_.push_back(bond.bond);
+  if (!broken_.empty()) break_found(body, clock, team);
   return true;
+}
+
+void Peridynamic::find_critical(Body& body, ThreadTeam& team, std::vector<CriticalBond>& found) {
+  find_broken(body, team);
+  found.clear();
+  for (const std::int32_t bond : broken_) found.push_back({bond, critical_ratio(body, bond)});
+}
+
+double Peridynamic::critical_ratio(const Body& body, std::int32_t bond) const {
+  double value = 0;
+  hood_.for_bonds(bond, bond + 1, [&](std::int32_t, std::int64_t i, std::int32_t p, std::int32_t) {
+    value = ratio(severity(body, i, p), damage_.limit(i, p));
+  });
+  return value;
 }
 
 // Sets broken_: the bonds that are beyond their limit.
@@ -209,7 +216,6 @@ std::vector<double> Peridynamic::limits(const Body& body) {
   return critical_stretches(body, materials_, reach());
 }
 
-// Breaks the bonds of broken_.
 void Peridynamic::break_found(Body& body, const Clock& clock, ThreadTeam& team) {
   touched_.clear();
   share_.clear();
@@ -229,7 +235,10 @@ void Peridynamic::break_found(Body& body, const Clock& clock, ThreadTeam& team) 
   }
   release_.assign(touched_.size(), 0.0);
   release(body, clock, team, +1);
-  for (const std::int32_t bond : broken_) damage_.mark(bond, kBroken);
+  for (const std::int32_t bond : broken_) {
+    damage_.mark(bond, kBroken);
+    broke(bond);
+  }
   for (const std::int32_t i : touched_) reconnect(i);
   release(body, clock, team, -1);
   for (const double e : release_) body.point.ledger[ledger::kFracture] += e;

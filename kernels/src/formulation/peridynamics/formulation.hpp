@@ -35,7 +35,10 @@ class Peridynamic : public Formulation {
   void stiffness_bound(const Body& body, ThreadTeam& team, std::span<double> bound) override;
 
   void break_bonds(Body& body, const Clock& clock, ThreadTeam& team) override;
-  bool break_most_critical(Body& body, const Clock& clock, ThreadTeam& team) override;
+  bool break_most_critical(Body& body, const Clock& clock, ThreadTeam& team,
+                           Breaking which) override;
+  void find_critical(Body& body, ThreadTeam& team, std::vector<CriticalBond>& found) override;
+  double critical_ratio(const Body& body, std::int32_t bond) const override;
   void deform(Body& body, const Clock& clock, ThreadTeam& team) override;
   void forces(Body& body, ThreadTeam& team) override;
   void precrack(Body& body, std::span<const std::int64_t> pairs) override;
@@ -67,6 +70,10 @@ class Peridynamic : public Formulation {
   virtual void flag_points(Body& body, ThreadTeam& team, std::vector<char>& flag);
   // What is compared with the limit of a bond: its stretch.
   virtual double severity(const Body& body, std::int64_t i, std::int64_t p) const;
+  // Of the severity to the limit, made to grow in proportion to the loads.
+  virtual double ratio(double severity, double limit) const { return severity / limit; }
+  // A bond broke by its limit or with a loose end.
+  virtual void broke(std::int32_t) {}
   // Sets the internal force of all points and their energy per volume.
   virtual void act(Body& body, ThreadTeam& team) = 0;
   // worker: tells apart who asks at the same time.
@@ -108,6 +115,10 @@ class Peridynamic : public Formulation {
   const Elastic& elastic(std::int64_t i) const {
     return materials_[static_cast<std::size_t>(material_of_[static_cast<std::size_t>(i)])];
   }
+  // Breaks the bonds of broken_ [ascending], and sets touched_.
+  void break_found(Body& body, const Clock& clock, ThreadTeam& team);
+  std::vector<std::int32_t> broken_;   // bonds of the step being done
+  std::vector<std::int32_t> touched_;  // their ends, each once
   Reach reach() const { return {dimension_, hood_.horizon, hood_.section}; }
   int dimension_ = 3;  // 1: a bar
   bool use_lattice_ = true;
@@ -119,20 +130,18 @@ class Peridynamic : public Formulation {
   void refuse_groups(const Body& body) const;
   void take_positions(const Body& body, ThreadTeam& team);
   void find_broken(Body& body, ThreadTeam& team);
-  void break_found(Body& body, const Clock& clock, ThreadTeam& team);
   void release(Body& body, const Clock& clock, ThreadTeam& team, double sign);
   void record_events(Body& body, const Clock& clock);
   Mat<3> fitted_gradient(const Body& body, std::int64_t i) const;
 
   double stable_step_ = 0;
-  std::vector<double> rates_;          // (n) several materials, else of the stiffest point alone
-  std::vector<char> flag_;             // (n) a bond may be beyond its limit
-  std::vector<std::int32_t> broken_;   // bonds of the step being done
-  std::vector<std::int32_t> touched_;  // their ends, each once
-  std::vector<std::int32_t> place_;    // (n) in touched_, or -1
-  std::vector<std::int32_t> share_;    // broken bonds of a touched point
-  std::vector<double> release_;        // of a touched point
-  ThreadTeam* team_ = nullptr;         // of the model, for what is asked between steps
+  std::vector<double> rates_;  // (n) several materials, else of the stiffest point alone
+  std::vector<char> flag_;     // (n) a bond may be beyond its limit
+  std::vector<CriticalBond> critical_;
+  std::vector<std::int32_t> place_;  // (n) in touched_, or -1
+  std::vector<std::int32_t> share_;  // broken bonds of a touched point
+  std::vector<double> release_;      // of a touched point
+  ThreadTeam* team_ = nullptr;       // of the model, for what is asked between steps
   bool gradient_observed_ = false, stress_observed_ = false;
 };
 

@@ -8,15 +8,13 @@
 
 namespace cleave::vcpm {
 
-std::string VolumeCompensatedParticles::static_obstacle(const Body&) const {
-  return damage_.active() ? "bonds may not break in it; give no limit, or use relaxation" : "";
-}
-
 bool VolumeCompensatedParticles::holds(const Body&, std::int64_t i) const {
   return damage_.intact_count(i) > 0;
 }
 
-void VolumeCompensatedParticles::add_stiffness(const Body& body, StiffnessSink& sink) const {
+template <class Carries>
+void VolumeCompensatedParticles::add_parts(const Body& body, const Carries& carries,
+                                           StiffnessSink& sink) const {
   const int D = dimension_;
   const auto d = static_cast<std::size_t>(D);
   const double scale = lattice_.cell * modulus_;
@@ -25,13 +23,15 @@ void VolumeCompensatedParticles::add_stiffness(const Body& body, StiffnessSink& 
   for (std::int64_t i = 0; i < hood_.points; ++i) {
     particles.assign(1, static_cast<std::int32_t>(i));
     slope.assign(d, 0.0);  // of theta_i with the displacements
-    for_carrying(i, [&](std::int32_t p, std::int32_t) {
+    for (auto half = hood_.first(i); half < hood_.last(i); ++half) {
+      if (!carries(half)) continue;
+      const std::int32_t p = hood_.neighbour(half);
       const Bond b = bond(body, i, p);
       const double share = 0.5 * factor_[static_cast<std::size_t>(i)] * b.shell->weight;
       for (int k = 0; k < D; ++k) slope[static_cast<std::size_t>(k)] -= share * b.direction[k];
       for (int k = 0; k < D; ++k) slope.push_back(share * b.direction[k]);
       particles.push_back(p);
-      if (p < i) return;
+      if (p < i) continue;
       const double stiff = 0.5 * b.shell->stiffness;
       const double length = hood_.length(i, p) + b.elongation;
       const double turn =
@@ -45,7 +45,7 @@ void VolumeCompensatedParticles::add_stiffness(const Body& body, StiffnessSink& 
         }
       const std::int32_t ends[2] = {static_cast<std::int32_t>(i), p};
       sink.add(ends, matrix.data());
-    });
+    }
     if (scale == 0) continue;  // nu = 1/4: springs alone
     const std::size_t size = slope.size();
     volume.resize(size * size);
@@ -53,6 +53,24 @@ void VolumeCompensatedParticles::add_stiffness(const Body& body, StiffnessSink& 
       for (std::size_t c = 0; c < size; ++c) volume[size * r + c] = scale * slope[r] * slope[c];
     sink.add(particles, volume.data());
   }
+}
+
+void VolumeCompensatedParticles::add_stiffness(const Body& body, StiffnessSink& sink) const {
+  add_parts(
+      body, [this](std::int32_t half) { return damage_.intact(half); }, sink);
+}
+
+void VolumeCompensatedParticles::add_stiffness_after(const Body& body, std::int64_t broken,
+                                                     StiffnessSink& sink) const {
+  std::vector<char> carries(static_cast<std::size_t>(hood_.half_bonds()));
+  hood_.for_bonds(0, hood_.bonds(),
+                  [&](std::int32_t bond, std::int64_t i, std::int32_t p, std::int32_t half) {
+                    if (!carried(bond, broken)) return;
+                    carries[static_cast<std::size_t>(half)] = 1;
+                    carries[static_cast<std::size_t>(hood_.find_half(p, i))] = 1;
+                  });
+  add_parts(
+      body, [&](std::int32_t half) { return carries[static_cast<std::size_t>(half)] != 0; }, sink);
 }
 
 }  // namespace cleave::vcpm

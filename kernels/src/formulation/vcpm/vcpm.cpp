@@ -37,6 +37,7 @@ void VolumeCompensatedParticles::setup(Body& body, ThreadTeam& team) {
 
 void VolumeCompensatedParticles::rebuild(Body& body, ThreadTeam& team) {
   Peridynamic::rebuild(body, team);
+  number_broken();
   find_pressures(body, team);
 }
 
@@ -84,6 +85,8 @@ void VolumeCompensatedParticles::prepare(Body& body) {
   geometry_ = static_cast<Geometry>(options.choice("geometry"));
   modulus_ = materials_.front().lambda - materials_.front().mu;
   const bool extend = options.choice("surface") == static_cast<int>(Surface::extend);
+  event_ = body.fields.integer("bond_event");
+  body.fields.integer("factored_bonds");
   pressure_.assign(at(hood_.points), 0.0);
   factor_.assign(at(hood_.points), 1.0);
   for (std::int64_t i = 0; extend && i < hood_.points; ++i)
@@ -187,6 +190,12 @@ double VolumeCompensatedParticles::severity(const Body& body, std::int64_t i,
   const double F = force(b, i, p);
   if (criterion_ == Criterion::force) return F;
   return F > 0 && b.elongation > 0 ? 0.5 * F * b.elongation : 0.0;
+}
+
+// Half of force times elongation grows with the square of the loads.
+double VolumeCompensatedParticles::ratio(double severity, double limit) const {
+  const double r = severity / limit;
+  return criterion_ == Criterion::energy ? std::sqrt(r) : r;
 }
 
 void VolumeCompensatedParticles::flag_points(Body& body, ThreadTeam& team,

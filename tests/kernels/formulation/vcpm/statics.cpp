@@ -85,14 +85,6 @@ TEST(VolumeCompensatedStatics, RelaxationFindsTheSame) {
   }
 }
 
-TEST(VolumeCompensatedStatics, BondsMayNotBreakInNewtonsMethod) {
-  const Cloud cloud = ball("triangular", 2.1);
-  CloudBody body(CLEAVE_FORMULATION_vcpm, CLEAVE_PLANE_STRAIN, cloud, {{"vcpm", "strength", 1.0}});
-  body.model.initialise();
-  EXPECT_EQ(cleave_model_solve_static(body.model, 1.0, nullptr, nullptr), CLEAVE_UNSUPPORTED);
-  EXPECT_NE(last_message().find("give no limit, or use relaxation"), std::string::npos);
-}
-
 // ---- the published elements
 
 using Slope = std::map<std::size_t, Point>;  // of a scalar with the displacements of particles

@@ -1,0 +1,144 @@
+#include "solver/kept_stiffness.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cleave {
+
+namespace {
+
+// Reciprocal condition number below which the correction has no inverse.
+constexpr double kSingular = 1e-10;
+// Of the largest entry: far above rounding, far below any stiffness.
+constexpr double kHinge = 1e-10;
+// Of a bond, but for loose ends: its own and one of each end.
+constexpr double kColumns = 3;
+
+}  // namespace
+
+void KeptStiffness::follow(Body& body) {
+  std::int32_t& factored = body.fields.integer("factored_bonds")[0];
+  const std::int64_t broken = body.formulation->broken_bonds();
+  if (factored_ != factored || factored_ + added_ > broken) factorise(body, factored);
+  if (static_cast<double>(broken - factored_) <= worthwhile()) {
+    while (factored_ + added_ < broken) add_change(body, factored_ + added_ + 1);
+    if (finish()) return;
+  }
+  factored = static_cast<std::int32_t>(broken);
+  factorise(body, broken);
+}
+
+// Over a cycle of m corrections a solution costs F/m + b m/2 more than the factor's own, with F the operations to find it
+// and b those of one more correction: least at m = sqrt(2 F/b). And the columns shall not need more memory than the factor.
+double KeptStiffness::worthwhile() const {
+  const auto n = static_cast<double>(std::max<std::int64_t>(equations_.count, 1));
+  const double cycle = std::sqrt(2 * base_->operations() / (2 * n * kColumns));
+  return std::fmin(cycle, base_->entries() / (n * kColumns));
+}
+
+void KeptStiffness::factorise(const Body& body, std::int64_t broken) {
+  base_ = std::make_unique<DirectSolver>();
+  factored_ = broken;
+  added_ = 0;
+  ++factorisations_;
+  columns_.clear();
+  solved_.clear();
+  weights_.clear();
+  hinges_ = false;
+  cross_.resize(0, 0);
+  equations_ = Equations(body, broken);
+  Stiffness k;
+  assemble_after(body, broken, equations_, k);
+  if (base_->factor(k.free, true)) return;
+  const std::int64_t weakest = base_->weakest();
+  if (broken > 0 && hold_hinges(k.free)) return;
+  factored_ = -1;
+  throw singular(body, equations_, weakest);
+}
+
+// A piece that breaking has left on a hinge can turn without resistance: a little of it, which the forces do
+// not know, so that the equilibrium is exact, and not found if the piece is loaded.    [ST hinge]
+bool KeptStiffness::hold_hinges(SparseMatrix& k) {
+  double largest = 0;
+  for (Eigen::Index c = 0; c < k.rows(); ++c)
+    largest = std::fmax(largest, std::fabs(k.coeff(c, c)));
+  for (Eigen::Index c = 0; c < k.rows(); ++c) k.coeffRef(c, c) += kHinge * largest;
+  base_ = std::make_unique<DirectSolver>();
+  hinges_ = base_->factor(k, true);
+  return hinges_;
+}
+
+double KeptStiffness::product(const Column& column, Eigen::Index of) const {
+  double sum = 0;
+  for (const auto& [equation, value] : column)
+    sum += value * solved_[static_cast<std::size_t>(of)][equation];
+  return sum;
+}
+
+void KeptStiffness::add_change(const Body& body, std::int64_t event) {
+  StiffnessChange change;
+  body.formulation->stiffness_change(body, event, change);
+  const auto d = static_cast<std::size_t>(body.dimension());
+  const Eigen::Index before = std::ssize(columns_);
+  for (const auto& column : change.columns) {
+    Column entries;
+    Vector dense = Vector::Zero(equations_.count);
+    for (std::size_t c = 0; c < column.values.size(); ++c) {
+      const auto dof =
+          static_cast<std::size_t>(kVector) * static_cast<std::size_t>(column.particles[c / d]) +
+          c % d;
+      const std::int32_t equation = equations_.of[dof];
+      if (equation < 0) continue;
+      entries.emplace_back(equation, column.values[c]);
+      dense[equation] += column.values[c];
+    }
+    columns_.push_back(std::move(entries));
+    solved_.push_back(base_->solve(dense));
+  }
+  weights_.push_back(change.weight);
+  const Eigen::Index now = std::ssize(columns_);
+  cross_.conservativeResize(now, now);
+  for (Eigen::Index r = 0; r < now; ++r)
+    for (Eigen::Index c = r < before ? before : 0; c < now; ++c)
+      cross_(r, c) = product(columns_[static_cast<std::size_t>(r)], c);
+  ++added_;
+}
+
+bool KeptStiffness::finish() {
+  const Eigen::Index size = std::ssize(columns_);
+  weight_ = Eigen::MatrixXd::Zero(size, size);
+  Eigen::Index place = 0;
+  for (const std::vector<double>& block : weights_) {
+    const auto width = static_cast<Eigen::Index>(std::lround(std::sqrt(block.size())));
+    for (Eigen::Index r = 0; r < width; ++r)
+      for (Eigen::Index c = 0; c < width; ++c)
+        weight_(place + r, place + c) = block[static_cast<std::size_t>(width * r + c)];
+    place += width;
+  }
+  if (size == 0) return true;
+  const Eigen::MatrixXd whole = Eigen::MatrixXd::Identity(size, size) + weight_ * cross_;
+  small_.compute(whole);
+  return small_.rcond() > kSingular;
+}
+
+Vector KeptStiffness::solve(const Vector& r) const {
+  Vector x = base_->solve(r);
+  const Eigen::Index size = std::ssize(columns_);
+  if (size == 0) return x;
+  Vector pulled(size);
+  for (Eigen::Index c = 0; c < size; ++c) {
+    pulled[c] = 0;
+    for (const auto& [equation, value] : columns_[static_cast<std::size_t>(c)])
+      pulled[c] += value * x[equation];
+  }
+  const Vector share = small_.solve(weight_ * pulled);
+  for (Eigen::Index c = 0; c < size; ++c) x -= share[c] * solved_[static_cast<std::size_t>(c)];
+  return x;
+}
+
+std::int64_t KeptStiffness::bytes() const {
+  if (base_ == nullptr) return 0;
+  return base_->bytes() + std::ssize(solved_) * equations_.count * 8;
+}
+
+}  // namespace cleave
