@@ -34,7 +34,7 @@ class Peridynamic : public Formulation {
   // The bound of the stable step for every point that has a bond left; with several materials, each point's own.
   void stiffness_bound(const Body& body, ThreadTeam& team, std::span<double> bound) override;
 
-  void break_bonds(Body& body, const Clock& clock, ThreadTeam& team) override;
+  bool break_bonds(Body& body, const Clock& clock, ThreadTeam& team) override;
   bool break_most_critical(Body& body, const Clock& clock, ThreadTeam& team) override;
   void deform(Body& body, const Clock& clock, ThreadTeam& team) override;
   void forces(Body& body, ThreadTeam& team) override;
@@ -67,6 +67,16 @@ class Peridynamic : public Formulation {
   virtual void flag_points(Body& body, ThreadTeam& team, std::vector<char>& flag);
   // What is compared with the limit of a bond: its stretch.
   virtual double severity(const Body& body, std::int64_t i, std::int64_t p) const;
+  // Share of its stiffness that an intact bond has, and that it keeps beyond the limit; 0: it breaks.
+  virtual double integrity(std::int32_t) const { return 1; }
+  virtual double kept_integrity(double) const { return 0; }
+  virtual void weaken(std::int32_t, double) {}
+  // Severity at which the bond is broken.
+  virtual double breaking_limit(std::int64_t i, std::int64_t p) const {
+    return damage_.limit(i, p);
+  }
+  // A bond releases energy [J]; returns all that it has released.
+  virtual double add_released(std::int32_t, double energy) { return energy; }
   // Sets the internal force of all points and their energy per volume.
   virtual void act(Body& body, ThreadTeam& team) = 0;
   // worker: tells apart who asks at the same time.
@@ -118,19 +128,24 @@ class Peridynamic : public Formulation {
  private:
   void refuse_groups(const Body& body) const;
   void take_positions(const Body& body, ThreadTeam& team);
-  void find_broken(Body& body, ThreadTeam& team);
-  void break_found(Body& body, const Clock& clock, ThreadTeam& team);
+  struct Weaker {  // a bond that carries less from now on
+    std::int32_t bond;
+    double kept, lost;  // integrity
+  };
+  void find_weaker(Body& body, ThreadTeam& team);
+  void touch_ends();
+  void weaken_found(Body& body, const Clock& clock, ThreadTeam& team);
   void release(Body& body, const Clock& clock, ThreadTeam& team, double sign);
-  void record_events(Body& body, const Clock& clock);
+  void record(Body& body, const Clock& clock);
   Mat<3> fitted_gradient(const Body& body, std::int64_t i) const;
 
   double stable_step_ = 0;
   std::vector<double> rates_;          // (n) several materials, else of the stiffest point alone
   std::vector<char> flag_;             // (n) a bond may be beyond its limit
-  std::vector<std::int32_t> broken_;   // bonds of the step being done
+  std::vector<Weaker> weaker_;         // bonds of the step being done
   std::vector<std::int32_t> touched_;  // their ends, each once
   std::vector<std::int32_t> place_;    // (n) in touched_, or -1
-  std::vector<std::int32_t> share_;    // broken bonds of a touched point
+  std::vector<double> share_;          // what the bonds of a touched point lose of their integrity
   std::vector<double> release_;        // of a touched point
   ThreadTeam* team_ = nullptr;         // of the model, for what is asked between steps
   bool gradient_observed_ = false, stress_observed_ = false;

@@ -25,14 +25,15 @@ void VolumeCompensatedParticles::add_stiffness(const Body& body, StiffnessSink& 
   for (std::int64_t i = 0; i < hood_.points; ++i) {
     particles.assign(1, static_cast<std::int32_t>(i));
     slope.assign(d, 0.0);  // of theta_i with the displacements
-    for_carrying(i, [&](std::int32_t p, std::int32_t) {
-      const Bond b = bond(body, i, p);
-      const double share = 0.5 * factor_[static_cast<std::size_t>(i)] * b.shell->weight;
+    for_carrying(i, [&](std::int32_t p, std::int32_t half) {
+      const Bond b = bond(body, i, p, half);
+      const double share =
+          b.integrity * 0.5 * factor_[static_cast<std::size_t>(i)] * b.shell->weight;
       for (int k = 0; k < D; ++k) slope[static_cast<std::size_t>(k)] -= share * b.direction[k];
       for (int k = 0; k < D; ++k) slope.push_back(share * b.direction[k]);
       particles.push_back(p);
       if (p < i) return;
-      const double stiff = 0.5 * b.shell->stiffness;
+      const double stiff = b.integrity * 0.5 * b.shell->stiffness;
       const double length = hood_.length(i, p) + b.elongation;
       const double turn =
           geometry_ == Geometry::finite && length > 0 ? force(b, i, p) / length : 0.0;

@@ -6,6 +6,7 @@
 
 #include "formulation/peridynamics/formulation.hpp"
 #include "formulation/vcpm/lattice.hpp"
+#include "formulation/vcpm/softening.hpp"
 
 namespace cleave::vcpm {
 
@@ -19,6 +20,7 @@ class VolumeCompensatedParticles final : public peridynamics::Peridynamic {
   void add_stiffness(const Body& body, StiffnessSink& sink) const override;
   bool holds(const Body& body, std::int64_t i) const override;
   std::string static_obstacle(const Body& body) const override;
+  std::string one_bond_obstacle(const Body& body) const override;
   bool derive(const Body& body, std::string_view field, std::int64_t first, std::int64_t last,
               double* values) const override;
   std::int64_t bytes() const override;
@@ -30,6 +32,12 @@ class VolumeCompensatedParticles final : public peridynamics::Peridynamic {
   void find_rates(const Body& body, std::span<double> rates) const override;
   void flag_points(Body& body, ThreadTeam& team, std::vector<char>& flag) override;
   double severity(const Body& body, std::int64_t i, std::int64_t p) const override;
+  void reconnect(std::int64_t i) override;
+  double integrity(std::int32_t half) const override;
+  double kept_integrity(double strain) const override;
+  void weaken(std::int32_t bond, double kept) override;
+  double breaking_limit(std::int64_t i, std::int64_t p) const override;
+  double add_released(std::int32_t bond, double energy) override;
   void act(Body& body, ThreadTeam& team) override;
   peridynamics::PointEnergy point_energy(const Body& body, std::int64_t i,
                                          int worker) const override;
@@ -40,15 +48,18 @@ class VolumeCompensatedParticles final : public peridynamics::Peridynamic {
     double elongation = 0;  // dL [m]
     Vec<3> direction;       // from i to p; zero where the ends coincide
     const Shell* shell = nullptr;
+    double integrity = 1;  // g
   };
-  Bond bond(const Body& body, std::int64_t i, std::int64_t p) const;
-  // sum_p w_ip dL_ip/2 over the bonds that carry, times the factor of the surface      [VCPM bond]
+  Bond bond(const Body& body, std::int64_t i, std::int64_t p) const;  // as if it were intact
+  Bond bond(const Body& body, std::int64_t i, std::int64_t p, std::int32_t half) const;
+  // sum_p g w_ip dL_ip/2 over the bonds that carry, times the factor of the surface    [VCPM bond]
   double dilatation(const Body& body, std::int64_t i) const;
   // V T/2 theta_i times the factor of the surface: what a bond takes from its end i, over w
   double pressure(std::int64_t i, double dilatation) const;
   void find_pressures(const Body& body, ThreadTeam& team);
   double force(const Bond& b, std::int64_t i, std::int64_t p) const;  // F_ip [N]       [VCPM 13]
   void check_bonds(const Body& body) const;
+  double bond_limit(const Body& body);
 
   Lattice lattice_;
   Geometry geometry_ = Geometry::finite;
@@ -56,6 +67,9 @@ class VolumeCompensatedParticles final : public peridynamics::Peridynamic {
   double modulus_ = 0;            // T, in plane stress that of the plane [Pa]
   std::vector<double> factor_;    // (n) of the surface
   std::vector<double> pressure_;  // (n) of the present positions
+  Softening softening_;
+  double *integrity_ = nullptr, *released_ = nullptr;  // (bonds) the fields
+  std::vector<double> weight_;  // (half-bonds) g, 0 where broken; empty without softening
 };
 
 }  // namespace cleave::vcpm
