@@ -6,6 +6,7 @@
 
 #include "formulation/peridynamics/formulation.hpp"
 #include "formulation/vcpm/lattice.hpp"
+#include "formulation/vcpm/softening.hpp"
 
 namespace cleave::vcpm {
 
@@ -18,7 +19,9 @@ class VolumeCompensatedParticles final : public peridynamics::Peridynamic {
   bool has_stiffness() const override { return true; }
   void add_stiffness(const Body& body, StiffnessSink& sink) const override;
   std::string static_obstacle(const Body&) const override { return {}; }
-  bool constant_stiffness() const override { return geometry_ == Geometry::linear; }
+  bool constant_stiffness() const override {
+    return geometry_ == Geometry::linear && !softening_.active();
+  }
   std::int64_t broken_bonds() const override { return std::ssize(order_); }
   void add_stiffness_after(const Body& body, std::int64_t broken,
                            StiffnessSink& sink) const override;
@@ -27,6 +30,7 @@ class VolumeCompensatedParticles final : public peridynamics::Peridynamic {
                         StiffnessChange& change) const override;
   void release_loose(Body& body, const Clock& clock, ThreadTeam& team) override;
   bool holds(const Body& body, std::int64_t i) const override;
+  std::string one_bond_obstacle(const Body& body) const override;
   bool derive(const Body& body, std::string_view field, std::int64_t first, std::int64_t last,
               double* values) const override;
   std::int64_t bytes() const override;
@@ -38,6 +42,12 @@ class VolumeCompensatedParticles final : public peridynamics::Peridynamic {
   void find_rates(const Body& body, std::span<double> rates) const override;
   void flag_points(Body& body, ThreadTeam& team, std::vector<char>& flag) override;
   double severity(const Body& body, std::int64_t i, std::int64_t p) const override;
+  void reconnect(std::int64_t i) override;
+  double integrity(std::int32_t half) const override;
+  double kept_integrity(double strain) const override;
+  void weaken(std::int32_t bond, double kept) override;
+  double breaking_limit(std::int64_t i, std::int64_t p) const override;
+  double add_released(std::int32_t bond, double energy) override;
   void act(Body& body, ThreadTeam& team) override;
   peridynamics::PointEnergy point_energy(const Body& body, std::int64_t i,
                                          int worker) const override;
@@ -50,9 +60,11 @@ class VolumeCompensatedParticles final : public peridynamics::Peridynamic {
     double elongation = 0;  // dL [m]
     Vec<3> direction;       // from i to p; zero where the ends coincide
     const Shell* shell = nullptr;
+    double integrity = 1;  // g
   };
-  Bond bond(const Body& body, std::int64_t i, std::int64_t p) const;
-  // sum_p w_ip dL_ip/2 over the bonds that carry, times the factor of the surface      [VCPM bond]
+  Bond bond(const Body& body, std::int64_t i, std::int64_t p) const;  // as if it were intact
+  Bond bond(const Body& body, std::int64_t i, std::int64_t p, std::int32_t half) const;
+  // sum_p g w_ip dL_ip/2 over the bonds that carry, times the factor of the surface    [VCPM bond]
   double dilatation(const Body& body, std::int64_t i) const;
   // V T/2 theta_i times the factor of the surface: what a bond takes from its end i, over w
   double pressure(std::int64_t i, double dilatation) const;
@@ -61,7 +73,7 @@ class VolumeCompensatedParticles final : public peridynamics::Peridynamic {
   void check_bonds(const Body& body) const;
   void number_broken();
   bool carried(std::int32_t bond, std::int64_t broken) const;
-  // f(neighbour) for the bonds of i that carried when so many had broken.
+  // f(neighbour, half) for the bonds of i that carried when so many had broken.
   template <class F>
   void for_carried(std::int64_t i, std::int64_t broken, const F& f) const;
   template <class Carries>
@@ -69,6 +81,7 @@ class VolumeCompensatedParticles final : public peridynamics::Peridynamic {
   StiffnessChange::Column volume_column(const Body& body, std::int64_t i,
                                         std::int64_t broken) const;
   bool is_loose(const Body& body, std::int64_t i) const;
+  double bond_limit(const Body& body);
 
   Lattice lattice_;
   Geometry geometry_ = Geometry::finite;
@@ -78,6 +91,9 @@ class VolumeCompensatedParticles final : public peridynamics::Peridynamic {
   std::vector<std::int32_t> order_;  // bonds in the order in which they broke
   std::vector<double> factor_;       // (n) of the surface
   std::vector<double> pressure_;     // (n) of the present positions
+  Softening softening_;
+  double *integrity_ = nullptr, *released_ = nullptr;  // (bonds) the fields
+  std::vector<double> weight_;  // (half-bonds) g, 0 where broken; empty without softening
 };
 
 }  // namespace cleave::vcpm
