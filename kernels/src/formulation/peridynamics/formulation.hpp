@@ -22,6 +22,9 @@ struct PointEnergy {
   double energy = 0, rate = 0;
 };
 
+// Copies vectors to the first three of four numbers each; whether a bit changed.
+bool take_rows(const double* from, std::int64_t count, double* to);
+
 class Peridynamic : public Formulation {
  public:
   bool takes_volumes() const override { return true; }
@@ -90,6 +93,8 @@ class Peridynamic : public Formulation {
     for (std::int64_t i = first; i < last; ++i) stress[i - first] = point_stress(body, i, worker);
   }
 
+  // Whether the positions in now_ are others than when this was asked before.
+  bool take_moved();
   PairArrays pair_arrays(Body& body) const;
   const PairKernels& kernels() const;
   // 2 sum_j w_ij / L_ij / m_i; weight(i, p)
@@ -140,6 +145,7 @@ class Peridynamic : public Formulation {
   Mat<3> fitted_gradient(const Body& body, std::int64_t i) const;
 
   double stable_step_ = 0;
+  std::vector<char> moved_;            // by block of points: now_ has changed
   std::vector<double> rates_;          // (n) several materials, else of the stiffest point alone
   std::vector<char> flag_;             // (n) a bond may be beyond its limit
   std::vector<Weaker> weaker_;         // bonds of the step being done
