@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 #include "core/instruction_set.hpp"
@@ -83,6 +84,7 @@ void Peridynamic::setup(Body& body, ThreadTeam&) {
   reference_.assign(4 * n, 0.0);
   now_.assign(4 * n, 0.0);
   left_.assign(n, 0.0);
+  moved_.assign(static_cast<std::size_t>(block_count(hood_.points)), 1);
   material_of_.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     material_of_[i] = body.region_of(static_cast<std::int64_t>(i));
@@ -154,20 +156,37 @@ PairArrays Peridynamic::pair_arrays(Body& body) const {
   return a;
 }
 
+bool take_rows(const double* from, std::int64_t count, double* to) {
+  std::uint64_t changed = 0;
+  for (std::int64_t i = 0; i < count; ++i)
+    for (std::int64_t k = 0; k < 3; ++k) {
+      const double x = from[kVector * i + k];
+      changed |= std::bit_cast<std::uint64_t>(x) ^ std::bit_cast<std::uint64_t>(to[4 * i + k]);
+      to[4 * i + k] = x;
+    }
+  return changed != 0;
+}
+
 void Peridynamic::take_positions(const Body& body, ThreadTeam& team) {
   team_ = &team;
   expect_workers(team.size());
   if (stress_observed_) std::fill(body.point.p, body.point.p + kTensor * hood_.points, 0.0);
   gradient_observed_ = stress_observed_ = false;
-  for_blocks(team, hood_.points, [&](std::int64_t, std::int64_t first, std::int64_t last) {
+  for_blocks(team, hood_.points, [&](std::int64_t block, std::int64_t first, std::int64_t last) {
     if (lattice_pairs_.active()) {
       lattice_pairs_.take(body.point.u, first, last);
       return;
     }
-    for (std::int64_t i = first; i < last; ++i)
-      for (std::int64_t k = 0; k < 3; ++k)
-        now_[static_cast<std::size_t>(4 * i + k)] = body.point.x[kVector * i + k];
+    const bool moved =
+        take_rows(body.point.x + kVector * first, last - first, now_.data() + 4 * first);
+    if (moved) moved_[static_cast<std::size_t>(block)] = 1;
   });
+}
+
+bool Peridynamic::take_moved() {
+  const bool moved = std::find(moved_.begin(), moved_.end(), 1) != moved_.end();
+  std::fill(moved_.begin(), moved_.end(), 0);
+  return moved;
 }
 
 void Peridynamic::deform(Body& body, const Clock&, ThreadTeam& team) { take_positions(body, team); }

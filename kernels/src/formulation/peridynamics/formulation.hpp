@@ -25,6 +25,9 @@ struct PointEnergy {
   double energy = 0, rate = 0;
 };
 
+// Copies vectors to the first three of four numbers each; whether a bit changed.
+bool take_rows(const double* from, std::int64_t count, double* to);
+
 class Peridynamic : public Formulation {
  public:
   bool takes_volumes() const override { return true; }
@@ -109,6 +112,8 @@ class Peridynamic : public Formulation {
   // After that: sets the internal force and the energy per volume from these, on a lattice for eight points at a
   // time, unless stencil forbids it.
   void act_by_pairs(Body& body, ThreadTeam& team);
+  // Whether the positions in now_ are others than when this was asked before.
+  bool take_moved();
   PairArrays pair_arrays(Body& body) const;
   const PairKernels& kernels() const;
   // 2 sum_j w_ij / L_ij / m_i; weight(i, p)
@@ -169,6 +174,7 @@ class Peridynamic : public Formulation {
   const double* alpha_of_pairs_ = nullptr;
   LatticePairs lattice_pairs_;  // active: instead of the kernels for any cloud
   double stable_step_ = 0;
+  std::vector<char> moved_;    // by block of points: now_ has changed
   std::vector<double> rates_;  // (n) several materials, else of the stiffest point alone
   std::vector<char> flag_;     // (n) a bond may be beyond its limit
   std::vector<CriticalBond> critical_;

@@ -11,7 +11,9 @@ namespace cleave::vcpm {
 
 namespace {
 
-constexpr double kOffLattice = 1e-4;  // of the length of a bond
+constexpr int kBeyond = 7;                // numbers that kernels may read behind the last half-bond
+constexpr std::int64_t kReserve = 65536;  // particles whose bonds break in one step
+constexpr double kOffLattice = 1e-4;      // of the length of a bond
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
@@ -35,9 +37,10 @@ void VolumeCompensatedParticles::setup(Body& body, ThreadTeam& team) {
 }
 
 void VolumeCompensatedParticles::rebuild(Body& body, ThreadTeam& team) {
+  responded_ = false;
   Peridynamic::rebuild(body, team);
   number_broken();
-  find_pressures(body, team);
+  respond(body, team);
 }
 
 // Every particle owns a whole cell, those at the surface too.
@@ -89,12 +92,24 @@ void VolumeCompensatedParticles::prepare(Body& body) {
     integrity_ = body.fields.real("bond_integrity");
     released_ = body.fields.real("bond_released");
     std::fill(integrity_, integrity_ + hood_.bonds(), 1.0);
-    weight_.assign(at(hood_.half_bonds()), 1.0);
+    weight_.assign(at(hood_.half_bonds() + kBeyond), 1.0);
   }
   const bool extend = options.choice("surface") == static_cast<int>(Surface::extend);
   event_ = body.fields.integer("bond_event");
   body.fields.integer("factored_bonds");
   pressure_.assign(at(hood_.points), 0.0);
+  force_.assign(at(kVector * hood_.points), 0.0);
+  energy_.assign(at(hood_.points), 0.0);
+  critical_.assign(at(hood_.points), 0);
+  stale_.reserve(at(std::min(hood_.points, kReserve)));
+  length_.assign(at(hood_.half_bonds() + kBeyond), 1.0);
+  for (std::int64_t i = 0; i < hood_.points; ++i)
+    for (auto b = hood_.first(i); b < hood_.last(i); ++b)
+      length_[at(b)] = hood_.length(i, hood_.neighbour(b));
+  if (geometry_ == Geometry::linear) {
+    shift_.assign(4 * at(hood_.points), 0.0);
+    shifted_.assign(at(block_count(hood_.points)), 0);
+  }
   factor_.assign(at(hood_.points), 1.0);
   for (std::int64_t i = 0; extend && i < hood_.points; ++i)
     if (hood_.count(i) > 0)
@@ -193,12 +208,6 @@ double VolumeCompensatedParticles::pressure(std::int64_t i, double dilatation) c
   return 0.5 * lattice_.cell * modulus_ * factor_[at(i)] * dilatation;
 }
 
-void VolumeCompensatedParticles::find_pressures(const Body& body, ThreadTeam& team) {
-  for_blocks(team, hood_.points, [&](std::int64_t, std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i) pressure_[at(i)] = pressure(i, dilatation(body, i));
-  });
-}
-
 double VolumeCompensatedParticles::force(const Bond& b, std::int64_t i, std::int64_t p) const {
   return b.integrity * (0.5 * b.shell->stiffness * b.elongation +
                         b.shell->weight * (pressure_[at(i)] + pressure_[at(p)]));
@@ -219,21 +228,6 @@ double VolumeCompensatedParticles::ratio(double severity, double limit) const {
   return criterion_ == Criterion::energy ? std::sqrt(r) : r;
 }
 
-void VolumeCompensatedParticles::flag_points(Body& body, ThreadTeam& team,
-                                             std::vector<char>& flag) {
-  find_pressures(body, team);
-  for_blocks(team, hood_.points, [&](std::int64_t, std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i) {
-      bool candidate = false;
-      for (auto b = hood_.upper(i); b < hood_.last(i) && !candidate; ++b) {
-        const std::int32_t p = hood_.neighbour(b);
-        candidate = damage_.intact(b) && severity(body, i, p) > damage_.limit(i, p);
-      }
-      flag[at(i)] = candidate ? 1 : 0;
-    }
-  });
-}
-
 std::string VolumeCompensatedParticles::one_bond_obstacle(const Body&) const {
   return softening_.active()
              ? "bonds that soften are not taken one at a time; use breaking 'all', or "
@@ -242,6 +236,7 @@ std::string VolumeCompensatedParticles::one_bond_obstacle(const Body&) const {
 }
 
 void VolumeCompensatedParticles::reconnect(std::int64_t i) {
+  if (responded_) stale_.push_back(static_cast<std::int32_t>(i));
   if (!softening_.active()) return;
   for (auto half = hood_.first(i); half < hood_.last(i); ++half) {
     const std::int32_t p = hood_.neighbour(half);
@@ -270,26 +265,6 @@ double VolumeCompensatedParticles::breaking_limit(std::int64_t i, std::int64_t p
 
 double VolumeCompensatedParticles::add_released(std::int32_t bond, double energy) {
   return softening_.active() ? released_[bond] += energy : energy;
-}
-
-void VolumeCompensatedParticles::act(Body& body, ThreadTeam& team) {
-  find_pressures(body, team);
-  for_blocks(team, hood_.points, [&](std::int64_t, std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i) {
-      Vec<3> sum;
-      double springs = 0, theta = 0;
-      for_carrying(i, [&](std::int32_t p, std::int32_t half) {
-        const Bond b = bond(body, i, p, half);
-        const double F = force(b, i, p);
-        springs += b.integrity * (0.125 * b.shell->stiffness * b.elongation * b.elongation);
-        theta += b.integrity * (0.5 * b.shell->weight * b.elongation);
-        for (int k = 0; k < 3; ++k) sum[k] += F * b.direction[k];
-      });
-      theta *= factor_[at(i)];
-      for (int k = 0; k < 3; ++k) body.point.internal[kVector * i + k] = sum[k];
-      body.point.energy[i] = springs / lattice_.cell + 0.5 * modulus_ * theta * theta;
-    }
-  });
 }
 
 // The energy of the cell; its bonds take dU/d(dL) = g (k dL/4 + w pressure) from it.
@@ -342,9 +317,10 @@ bool VolumeCompensatedParticles::derive(const Body& body, std::string_view field
 }
 
 std::int64_t VolumeCompensatedParticles::bytes() const {
-  return Peridynamic::bytes() +
-         static_cast<std::int64_t>(
-             (factor_.capacity() + pressure_.capacity() + weight_.capacity()) * sizeof(double));
+  std::size_t reals = shift_.capacity();
+  for (const auto* list : {&factor_, &pressure_, &force_, &energy_, &weight_, &length_})
+    reals += list->capacity();
+  return Peridynamic::bytes() + static_cast<std::int64_t>(reals * sizeof(double));
 }
 
 }  // namespace cleave::vcpm

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "formulation/peridynamics/formulation.hpp"
+#include "formulation/vcpm/cell_kernels.hpp"
 #include "formulation/vcpm/lattice.hpp"
 #include "formulation/vcpm/softening.hpp"
 
@@ -68,7 +69,10 @@ class VolumeCompensatedParticles final : public peridynamics::Peridynamic {
   double dilatation(const Body& body, std::int64_t i) const;
   // V T/2 theta_i times the factor of the surface: what a bond takes from its end i, over w
   double pressure(std::int64_t i, double dilatation) const;
-  void find_pressures(const Body& body, ThreadTeam& team);
+  CellArrays cell_arrays();
+  bool take_shifts(const Body& body, ThreadTeam& team);
+  void respond(const Body& body, ThreadTeam& team);
+  void respond_again(const CellArrays& arrays);
   double force(const Bond& b, std::int64_t i, std::int64_t p) const;  // F_ip [N]       [VCPM 13]
   void check_bonds(const Body& body) const;
   void number_broken();
@@ -89,11 +93,19 @@ class VolumeCompensatedParticles final : public peridynamics::Peridynamic {
   double modulus_ = 0;               // T, in plane stress that of the plane [Pa]
   std::int32_t* event_ = nullptr;    // (bonds), the field
   std::vector<std::int32_t> order_;  // bonds in the order in which they broke
+  std::vector<double> length_;       // (half-bonds, and 7 more) [m]
+  AlignedReals shift_;               // (4,n) displacements, of geometry 'linear'
   std::vector<double> factor_;       // (n) of the surface
-  std::vector<double> pressure_;     // (n) of the present positions
+  // Of the positions and bonds that respond saw last.
+  std::vector<double> pressure_, force_, energy_;  // (n), (3,n), (n)
+  std::vector<char> critical_;                     // (n) a bond may be beyond its limit
+  bool responded_ = false;
+  std::vector<std::int32_t> stale_;  // particles that other bonds hold since then
+  std::vector<char> shifted_;        // by block of points: shift_ has changed
   Softening softening_;
   double *integrity_ = nullptr, *released_ = nullptr;  // (bonds) the fields
-  std::vector<double> weight_;  // (half-bonds) g, 0 where broken; empty without softening
+  std::vector<double>
+      weight_;  // (half-bonds, and 7 more) g, 0 where broken; empty without softening
 };
 
 }  // namespace cleave::vcpm
