@@ -331,6 +331,12 @@ C     A MODEL BY ITS HANDLE, AND ANOTHER BESIDE IT
       CALL CLMMEM(MOD, BYTES, IERR)
       CALL CHECK(IERR)
       IF (BYTES .LT. 1000) CALL CHMISS('BYTES OF A MODEL')
+C     Bonds of this body may not break in Newton's method.
+      NC(1) = -1
+      CALL CLSOLL(MOD, T, 0D0, 0, NC(1), D, D, NC(2), IERR)
+      IF (IERR .EQ. 0 .OR. NC(1) .NE. -1) CALL CHMISS('CLSOLL')
+      CALL CLBRKS(MOD, 0D0, 0, 2, NC(1), NC(2), NC(3), IERR)
+      IF (IERR .EQ. 0 .OR. NC(1) .NE. -1) CALL CHMISS('CLBRKS')
       NC(1) = 0
       NC(3) = 1
       CALL CLRELX(MOD, T, 1D-9, 0, 1, 5, NC(1), NC(2), D, NC(3), IERR)

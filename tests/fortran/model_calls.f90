@@ -246,7 +246,12 @@ contains
     call ok(cleave_field_get_real(model, body, 'displacement', 1, n, u))
     call same_reals('static_displacement', u)
     call same_reals('static_residual', [report%residual])
-    call same_integers('static_report', [report%iterations, report%unknowns])
+    call same_integers('static_report', [report%iterations, report%unknowns, report%broken, &
+        report%critical])
+    call same_reals('static_fraction', [report%fraction])
+    options%breaking = CLEAVE_BREAKING_ONE
+    call ok(cleave_model_break_static(model, options, report))
+    call same_integers('static_broken', [report%iterations, report%broken, report%critical])
     led_to(1) = 2e-4_c_double
     call ok(cleave_body_motion(model, body, led_to))
     call ok(cleave_relaxation_options_init(relaxation))

@@ -295,7 +295,11 @@ void statics(const SimplexMesh& m, std::int32_t kinematics) {
   ok(cleave_model_solve_static(model, 1.0, &options, &report));
   reals["static_displacement"] = real_field(model, "displacement");
   reals["static_residual"] = {report.residual};
-  integers["static_report"] = {report.iterations, report.unknowns};
+  integers["static_report"] = {report.iterations, report.unknowns, report.broken, report.critical};
+  reals["static_fraction"] = {report.fraction};
+  options.breaking = CLEAVE_BREAKING_ONE;
+  ok(cleave_model_break_static(model, &options, &report));
+  integers["static_broken"] = {report.iterations, report.broken, report.critical};
   u[0] = 2e-4;
   ok(cleave_body_motion(model, body, count, u.data(), nullptr));
   cleave_relaxation_report relaxed = sized<cleave_relaxation_report>();

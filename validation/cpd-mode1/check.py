@@ -14,7 +14,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 HORIZON, TOUGHNESS, LIGAMENT = 0.0675, 2.7, 0.05        # mm, N/mm, mm2
 SLOPES = {"quick": (40, 50), "full": (40, 50, 60, 70, 80, 90, 100)}
 # n: displacement of the top [um] before which nothing breaks, and at the end; increments of 0.1 between
-COURSES = {40: (4.4, 6.2), 50: (3.4, 5.6), 60: (2.8, 5.6)}
+COURSES = {40: (4.4, 6.2), 50: (3.4, 5.6), 60: (2.8, 5.6), 70: (2.0, 5.6), 80: (1.5, 5.6), 90: (1.3, 5.6), 100: (1.0, 5.6)}
 TORN = {"quick": {"cpd": (40, 50), "bond": (40,)}, "full": {"cpd": (40, 50, 60), "bond": (40, 50, 60)}}
 NAMES = {"cpd": "cpd", "bond": "bond_pd"}
 SMALL = 0.25                                            # um

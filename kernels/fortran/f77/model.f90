@@ -182,6 +182,72 @@ recursive subroutine clsolv(mod, tnew, tol, maxit, niter, resid, ierr)
   ierr = status
 end subroutine clsolv
 
+! The same, but no further than to where a first bond reaches its limit: frac is 1, or with the state as before
+! the part of the way to there. ncrit: bonds beyond their limits now.
+recursive subroutine clsoll(mod, tnew, tol, maxit, niter, resid, frac, ncrit, ierr)
+  use, intrinsic :: iso_c_binding, only: c_int32_t, c_double
+  use cleave77_support, only: model_of
+  use cleave77_choice, only: choice
+  use cleave, only: cleave_model, cleave_model_solve_static, cleave_static_options, &
+      cleave_static_options_init, cleave_static_report, CLEAVE_OK
+  implicit none
+  integer, intent(in) :: mod
+  real(c_double), intent(in) :: tnew, tol
+  integer, intent(in) :: maxit
+  integer, intent(inout) :: niter, ncrit
+  real(c_double), intent(inout) :: resid, frac
+  integer, intent(out) :: ierr
+  type(cleave_model) :: model
+  integer(c_int32_t) :: status
+  type(cleave_static_options) :: options
+  type(cleave_static_report) :: report
+  call model_of('CLSOLL', mod, model, status)
+  if (status == CLEAVE_OK) status = cleave_static_options_init(options)
+  if (tol > 0) options%tolerance = tol
+  if (maxit > 0) options%max_iterations = choice(maxit)
+  options%stop_at_limit = 1
+  if (status == CLEAVE_OK) status = cleave_model_solve_static(model, tnew, options, report)
+  if (status == CLEAVE_OK) then
+    niter = int(report%iterations, kind(niter))
+    resid = report%residual
+    frac = report%fraction
+    ncrit = int(report%critical, kind(ncrit))
+  end if
+  ierr = status
+end subroutine clsoll
+
+! Breaks bonds that are beyond their limits and finds the equilibrium under the same loads. ibreak: a value of enum
+! cleave_breaking, 0 for all; nbroke: bonds that broke, 0: none was beyond; ncrit: bonds beyond their limits now.
+recursive subroutine clbrks(mod, tol, maxit, ibreak, niter, nbroke, ncrit, ierr)
+  use, intrinsic :: iso_c_binding, only: c_int32_t, c_double
+  use cleave77_support, only: model_of
+  use cleave77_choice, only: choice
+  use cleave, only: cleave_model, cleave_model_break_static, cleave_static_options, &
+      cleave_static_options_init, cleave_static_report, CLEAVE_OK
+  implicit none
+  integer, intent(in) :: mod
+  real(c_double), intent(in) :: tol
+  integer, intent(in) :: maxit, ibreak
+  integer, intent(inout) :: niter, nbroke, ncrit
+  integer, intent(out) :: ierr
+  type(cleave_model) :: model
+  integer(c_int32_t) :: status
+  type(cleave_static_options) :: options
+  type(cleave_static_report) :: report
+  call model_of('CLBRKS', mod, model, status)
+  if (status == CLEAVE_OK) status = cleave_static_options_init(options)
+  if (tol > 0) options%tolerance = tol
+  if (maxit > 0) options%max_iterations = choice(maxit)
+  if (ibreak /= 0) options%breaking = choice(ibreak)
+  if (status == CLEAVE_OK) status = cleave_model_break_static(model, options, report)
+  if (status == CLEAVE_OK) then
+    niter = int(report%iterations, kind(niter))
+    nbroke = int(report%broken, kind(nbroke))
+    ncrit = int(report%critical, kind(ncrit))
+  end if
+  ierr = status
+end subroutine clbrks
+
 ! The next equilibrium by relaxation, with bonds that break. tol, maxit: 0 for the defaults; ione: 1 to break
 ! one bond at a time; nslice: iterations of this call, 0 until it is done. niter, nbroke, resid: what the
 ! increment took so far; idone: 0 if the slice is used up and the same call goes on.

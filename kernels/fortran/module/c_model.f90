@@ -32,6 +32,7 @@ module cleave_c_model
   public :: cleave_model_update
   public :: cleave_static_options_init
   public :: cleave_model_solve_static
+  public :: cleave_model_break_static
   public :: cleave_relaxation_options_init
   public :: cleave_model_relax
   public :: cleave_model_relax_cancel
@@ -271,6 +272,14 @@ module cleave_c_model
       type(c_ptr), value :: options, report
       integer(c_int32_t) :: status
     end function cleave_model_solve_static
+
+    function cleave_model_break_static(model, options, report) bind(C) result(status)
+      import :: c_ptr, c_int32_t
+      implicit none
+      type(c_ptr), value :: model
+      type(c_ptr), value :: options, report
+      integer(c_int32_t) :: status
+    end function cleave_model_break_static
 
     function cleave_relaxation_options_init(options) bind(C) result(status)
       import :: cleave_relaxation_options, c_int32_t

@@ -16,7 +16,8 @@ module cleave
       cleave_model_set_order, cleave_model_setup, cleave_model_stable_step, &
       cleave_model_is_stable, cleave_model_initialise, &
       cleave_model_advance, cleave_model_update, cleave_static_options, cleave_static_report, &
-      cleave_static_options_init, cleave_model_solve_static, cleave_relaxation_options, &
+      cleave_static_options_init, cleave_model_solve_static, cleave_model_break_static, &
+      cleave_relaxation_options, &
       cleave_relaxation_report, cleave_relaxation_options_init, cleave_model_relax, &
       cleave_model_relax_cancel
   use cleave_specs

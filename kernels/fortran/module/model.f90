@@ -11,6 +11,7 @@ module cleave_models
       c_order => cleave_model_set_order, c_is_stable => cleave_model_is_stable, &
       c_initialise => cleave_model_initialise, c_advance => cleave_model_advance, &
       c_update => cleave_model_update, c_solve => cleave_model_solve_static, &
+      c_break => cleave_model_break_static, &
       c_options_init => cleave_static_options_init, cleave_static_options, &
       c_report => cleave_static_report, &
       c_relax_init => cleave_relaxation_options_init, c_relax => cleave_model_relax, &
@@ -23,7 +24,7 @@ module cleave_models
       cleave_model_setup, cleave_model_stable_step, cleave_model_is_stable, &
       cleave_model_initialise, cleave_model_advance, cleave_model_update
   public :: cleave_static_options, cleave_static_report, cleave_static_options_init, &
-      cleave_model_solve_static
+      cleave_model_solve_static, cleave_model_break_static
   public :: cleave_relaxation_options, cleave_relaxation_report, cleave_relaxation_options_init, &
       cleave_model_relax, cleave_model_relax_cancel
 
@@ -37,6 +38,9 @@ module cleave_models
     integer(c_int64_t) :: iterations = 0
     integer(c_int64_t) :: unknowns = 0
     real(c_double) :: residual = 0
+    real(c_double) :: fraction = 0
+    integer(c_int64_t) :: broken = 0
+    integer(c_int64_t) :: critical = 0
   end type cleave_static_report
 
   type :: cleave_relaxation_report
@@ -81,6 +85,9 @@ module cleave_models
   interface cleave_model_solve_static
     module procedure model_solve_static
   end interface cleave_model_solve_static
+  interface cleave_model_break_static
+    module procedure model_break_static
+  end interface cleave_model_break_static
   interface cleave_relaxation_options_init
     module procedure relaxation_options_init
   end interface cleave_relaxation_options_init
@@ -210,11 +217,35 @@ contains
     if (present(options)) chosen = c_loc(options)
     answer%size = size(transfer(answer, [0_c_int8_t]), kind=c_int64_t)
     status = c_solve(model%handle, time_new, chosen, c_loc(answer))
-    if (status /= CLEAVE_OK .or. .not. present(report)) return
+    if (status == CLEAVE_OK .and. present(report)) report = static_report(answer)
+  end function model_solve_static
+
+  recursive function model_break_static(model, options, report) result(status)
+    type(cleave_model), intent(in) :: model
+    type(cleave_static_options), intent(in), target, optional :: options
+    type(cleave_static_report), intent(inout), optional :: report
+    integer(c_int32_t) :: status
+    type(c_report), target :: answer
+    type(c_ptr) :: chosen
+    status = ready('cleave_model_break_static', model)
+    if (status /= CLEAVE_OK) return
+    chosen = c_null_ptr
+    if (present(options)) chosen = c_loc(options)
+    answer%size = size(transfer(answer, [0_c_int8_t]), kind=c_int64_t)
+    status = c_break(model%handle, chosen, c_loc(answer))
+    if (status == CLEAVE_OK .and. present(report)) report = static_report(answer)
+  end function model_break_static
+
+  pure function static_report(answer) result(report)
+    type(c_report), intent(in) :: answer
+    type(cleave_static_report) :: report
     report%iterations = answer%iterations
     report%unknowns = answer%unknowns
     report%residual = answer%residual
-  end function model_solve_static
+    report%fraction = answer%fraction
+    report%broken = answer%broken
+    report%critical = answer%critical
+  end function static_report
 
   recursive function relaxation_options_init(options) result(status)
     type(cleave_relaxation_options), intent(out) :: options

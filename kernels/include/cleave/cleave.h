@@ -475,9 +475,10 @@ typedef struct cleave_static_options {
   int64_t size;
   double tolerance;       /* norm of the residual over that of all forces; default 1e-9 */
   int32_t max_iterations; /* default 25 */
-  int32_t stop_at_limit;  /* 1: go no further than to where a first bond reaches its limit; default 0 */
-  int32_t solver;         /* enum cleave_solver, of the linear systems; default DIRECT */
-  int32_t breaking;       /* enum cleave_breaking, of cleave_model_break_static; default ALL */
+  int32_t
+      stop_at_limit; /* 1: go no further than to where a first bond reaches its limit; default 0 */
+  int32_t solver;    /* enum cleave_solver, of the linear systems; default DIRECT */
+  int32_t breaking;  /* enum cleave_breaking, of cleave_model_break_static; default ALL */
 } cleave_static_options;
 typedef struct cleave_static_report {
   int64_t size;

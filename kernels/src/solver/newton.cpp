@@ -68,6 +68,7 @@ void Newton::load() {
   book_works(body_, committed_, [this](std::size_t c) { return is_free(c); });
 }
 
+// [ST loss]
 void Newton::settle() {
   evaluate(displacement_);
   const StoredEnergy before = body_.formulation->stored_energy(body_);

@@ -4,7 +4,7 @@ namespace cleave::bond_pd {
 
 using peridynamics::Interface;
 using peridynamics::KeptModulus;
-using peridynamics::PairArrays;
+using peridynamics::PairForm;
 using peridynamics::PointEnergy;
 
 void BondPeridynamics::prepare(Body& body) {
@@ -23,6 +23,11 @@ void BondPeridynamics::prepare(Body& body) {
     const double c = constants_[static_cast<std::size_t>(material_of_[i])];
     share_[i] = interface_ == Interface::series ? 0.5 / c : 0.5 * c;
   }
+  if (!several) {
+    weigh_pairs(PairForm::product);
+  } else {
+    weigh_pairs(interface_ == Interface::series ? PairForm::series : PairForm::mean, share_.data());
+  }
 }
 
 double BondPeridynamics::constant(std::int64_t i, std::int64_t p) const {
@@ -36,16 +41,7 @@ void BondPeridynamics::find_rates(const Body& body, std::span<double> rates) con
       body, [this](std::int64_t i, std::int64_t p) { return weight(i, p); }, rates);
 }
 
-void BondPeridynamics::act(Body& body, ThreadTeam& team) {
-  PairArrays arrays = pair_arrays(body);
-  arrays.alpha = share_.data();
-  const auto force = share_.empty()                    ? kernels().product
-                     : interface_ == Interface::series ? kernels().series
-                                                       : kernels().mean;
-  for_blocks(team, hood_.points, [&](std::int64_t, std::int64_t first, std::int64_t last) {
-    force(arrays, first, last);
-  });
-}
+void BondPeridynamics::act(Body& body, ThreadTeam& team) { act_by_pairs(body, team); }
 
 PointEnergy BondPeridynamics::point_energy(const Body& body, std::int64_t i, int) const {
   PointEnergy sum;

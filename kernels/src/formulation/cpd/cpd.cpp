@@ -7,7 +7,7 @@
 #include <span>
 
 #include "core/instruction_set.hpp"
-#include "formulation/cpd/lattice.hpp"
+#include "formulation/peridynamics/lattice.hpp"
 
 CLEAVE_DECLARE_KERNELS(cleave_call::CliqueKernels, kCliqueKernels)
 
@@ -17,7 +17,8 @@ using peridynamics::bond_motion;
 using peridynamics::BondMotion;
 using peridynamics::Calibration;
 using peridynamics::HoodVolume;
-using peridynamics::PairArrays;
+using peridynamics::Lattice;
+using peridynamics::PairForm;
 using peridynamics::PointEnergy;
 using peridynamics::ThreeNeighbour;
 
@@ -66,6 +67,7 @@ void ContinuumKinematicsPeridynamics::prepare(Body& body) {
   }
   if (any(&Constants::two) || any(&Constants::three)) numbers_ = hood_numbers(hood_);
   weigh(body);
+  weigh_pairs(conservative_ ? PairForm::sum : PairForm::product);
   scratch_.clear();
   expect_workers(1);
   if (any(&Constants::three)) {
@@ -143,10 +145,7 @@ void ContinuumKinematicsPeridynamics::expect_workers(int workers) {
 }
 
 void ContinuumKinematicsPeridynamics::act(Body& body, ThreadTeam& team) {
-  const PairArrays arrays = pair_arrays(body);
-  for_blocks(team, hood_.points, [&](std::int64_t, std::int64_t first, std::int64_t last) {
-    conservative_ ? kernels().sum(arrays, first, last) : kernels().product(arrays, first, last);
-  });
+  act_by_pairs(body, team);
   if (!two_.empty()) add_triangles(body, team);
   if (!three_.empty()) add_tetrahedra(body, team);
 }

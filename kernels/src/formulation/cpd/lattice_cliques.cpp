@@ -48,15 +48,12 @@ std::vector<Cell> cells_ahead(std::int32_t reach, double limit) {
 
 }  // namespace
 
-bool LatticeCliques::setup(const peridynamics::Neighbourhood& hood, const Lattice& lattice,
-                           bool signed_volume) {
+bool LatticeCliques::setup(const peridynamics::Neighbourhood& hood,
+                           const peridynamics::Lattice& lattice, bool signed_volume) {
   *this = {};
   spacing_ = lattice.spacing;
   signed_volume_ = signed_volume;
-  axis_ = {0, 1, 2};
-  std::stable_sort(axis_.begin(), axis_.end(), [&](std::size_t a, std::size_t b) {
-    return lattice.shape[a] > lattice.shape[b];
-  });
+  axis_ = peridynamics::axes_by_length(lattice);
   for (std::size_t k = 0; k < 3; ++k) shape_[k] = lattice.shape[axis_[k]];
   const double limit = hood.square_limit / (spacing_ * spacing_);
   while (static_cast<double>((reach_ + 1) * (reach_ + 1)) < limit) ++reach_;

@@ -14,17 +14,18 @@
 #include "core/aligned.hpp"
 #include "core/tensor.hpp"
 #include "core/thread_team.hpp"
-#include "formulation/cpd/lattice.hpp"
 #include "formulation/cpd/lattice_bonds.hpp"
 #include "formulation/cpd/lattice_kernels.hpp"
 #include "formulation/peridynamics/damage.hpp"
+#include "formulation/peridynamics/lattice.hpp"
 
 namespace cleave::cpd {
 
 class LatticeCliques {
  public:
   // False where the list of shapes would be too long; then nothing is kept.
-  bool setup(const peridynamics::Neighbourhood& hood, const Lattice& lattice, bool signed_volume);
+  bool setup(const peridynamics::Neighbourhood& hood, const peridynamics::Lattice& lattice,
+             bool signed_volume);
   bool active() const { return !tiles_.empty(); }
   // Tetrahedra that a point with all its neighbours is the first of.
   std::int64_t shapes() const { return static_cast<std::int64_t>(ahead_.thirds.size()); }

@@ -90,8 +90,10 @@ void Peridynamic::setup(Body& body, ThreadTeam&) {
   damage_.setup(body, hood_, limits(body), options.real("interface_strain"));
   interactions_ = body.fields.real("interactions");
   interactions_[0] = static_cast<double>(hood_.half_bonds());
+  pair_form_.reset();
   prepare(body);
-  for (std::int64_t i = 0; i < hood_.points; ++i) reconnect(i);
+  share_stencil(body);
+  for (std::int64_t i = 0; i < hood_.points; ++i) rewire(i);
   rates_.assign(n, 0.0);
   find_rates(body, rates_);
   const double largest = *std::max_element(rates_.begin(), rates_.end());
@@ -104,10 +106,26 @@ void Peridynamic::setup(Body& body, ThreadTeam&) {
   release_.reserve(reserve);
 }
 
+void Peridynamic::share_stencil(const Body& body) {
+  lattice_pairs_ = {};
+  if (!use_lattice_ || !pair_form_) return;
+  const Lattice lattice = find_lattice(hood_);
+  if (!lattice.found() || !lattice_pairs_.setup(hood_, lattice, body.dimension())) return;
+  std::vector<double> right(left_.size());
+  for (std::size_t i = 0; i < right.size(); ++i) right[i] = now_[4 * i + 3];
+  lattice_pairs_.weigh(hood_, {*pair_form_, left_.data(), right.data(), alpha_of_pairs_},
+                       damage_.least_limits());
+}
+
+void Peridynamic::rewire(std::int64_t i) {
+  if (lattice_pairs_.active()) lattice_pairs_.connect(hood_, damage_, i);
+  reconnect(i);
+}
+
 void Peridynamic::rebuild(Body& body, ThreadTeam& team) {
   damage_.rebuild();
   stress_observed_ = true;  // what a checkpoint brought is as old as its step
-  for (std::int64_t i = 0; i < hood_.points; ++i) reconnect(i);
+  for (std::int64_t i = 0; i < hood_.points; ++i) rewire(i);
   take_positions(body, team);
 }
 
@@ -138,6 +156,10 @@ void Peridynamic::take_positions(const Body& body, ThreadTeam& team) {
   if (stress_observed_) std::fill(body.point.p, body.point.p + kTensor * hood_.points, 0.0);
   gradient_observed_ = stress_observed_ = false;
   for_blocks(team, hood_.points, [&](std::int64_t, std::int64_t first, std::int64_t last) {
+    if (lattice_pairs_.active()) {
+      lattice_pairs_.take(body.point.u, first, last);
+      return;
+    }
     for (std::int64_t i = first; i < last; ++i)
       for (std::int64_t k = 0; k < 3; ++k)
         now_[static_cast<std::size_t>(4 * i + k)] = body.point.x[kVector * i + k];
@@ -199,7 +221,24 @@ void Peridynamic::find_broken(Body& body, ThreadTeam& team) {
       flag_, [&](std::int64_t i, std::int64_t p) { return severity(body, i, p); }, broken_);
 }
 
+void Peridynamic::act_by_pairs(Body& body, ThreadTeam& team) {
+  if (lattice_pairs_.active()) {
+    lattice_pairs_.act(team, body.point.internal, body.point.energy);
+    return;
+  }
+  PairArrays arrays = pair_arrays(body);
+  arrays.alpha = alpha_of_pairs_;
+  const auto force = kernels().force[static_cast<int>(*pair_form_)];
+  for_blocks(team, hood_.points, [&](std::int64_t, std::int64_t first, std::int64_t last) {
+    force(arrays, first, last);
+  });
+}
+
 void Peridynamic::flag_points(Body& body, ThreadTeam& team, std::vector<char>& flag) {
+  if (lattice_pairs_.active()) {
+    lattice_pairs_.flag_stretched(team, flag);
+    return;
+  }
   const PairArrays arrays = pair_arrays(body);
   for_blocks(team, hood_.points, [&](std::int64_t, std::int64_t first, std::int64_t last) {
     kernels().stretched(arrays, first, last, damage_.least_limits(), flag.data() + first);
@@ -239,7 +278,7 @@ void Peridynamic::break_found(Body& body, const Clock& clock, ThreadTeam& team) 
     damage_.mark(bond, kBroken);
     broke(bond);
   }
-  for (const std::int32_t i : touched_) reconnect(i);
+  for (const std::int32_t i : touched_) rewire(i);
   release(body, clock, team, -1);
   for (const double e : release_) body.point.ledger[ledger::kFracture] += e;
   record_events(body, clock);
@@ -295,7 +334,7 @@ void Peridynamic::precrack(Body& body, std::span<const std::int64_t> pairs) {
     bonds.push_back(hood_.bond_of_upper(i, half));
   }
   for (const std::int32_t bond : bonds) damage_.mark(bond, kCut);
-  for (std::int64_t i = 0; i < hood_.points; ++i) reconnect(i);
+  for (std::int64_t i = 0; i < hood_.points; ++i) rewire(i);
 }
 
 StoredEnergy Peridynamic::stored_energy(const Body& body) const {
@@ -406,7 +445,7 @@ void Peridynamic::observe(Body& body, std::string_view field) {
 }
 
 std::int64_t Peridynamic::bytes() const {
-  return hood_.bytes() + damage_.bytes() +
+  return hood_.bytes() + damage_.bytes() + lattice_pairs_.bytes() +
          static_cast<std::int64_t>((now_.capacity() + reference_.capacity() + left_.capacity()) *
                                    sizeof(double)) +
          static_cast<std::int64_t>(flag_.capacity() +

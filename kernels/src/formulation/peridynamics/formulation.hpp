@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -12,6 +13,8 @@
 #include "core/thread_team.hpp"
 #include "formulation/peridynamics/constants.hpp"
 #include "formulation/peridynamics/damage.hpp"
+#include "formulation/peridynamics/lattice.hpp"
+#include "formulation/peridynamics/lattice_pairs.hpp"
 #include "formulation/peridynamics/neighbourhood.hpp"
 #include "formulation/peridynamics/pair_kernels.hpp"
 
@@ -87,6 +90,15 @@ class Peridynamic : public Formulation {
     for (std::int64_t i = first; i < last; ++i) stress[i - first] = point_stress(body, i, worker);
   }
 
+  // Of forces between two points, from left_ and the fourth of now_; alpha (n) outlives this. To be said in
+  // `prepare`.
+  void weigh_pairs(PairForm form, const double* alpha = nullptr) {
+    pair_form_ = form;
+    alpha_of_pairs_ = alpha;
+  }
+  // After that: sets the internal force and the energy per volume from these, on a lattice for eight points at a
+  // time, unless stencil forbids it.
+  void act_by_pairs(Body& body, ThreadTeam& team);
   PairArrays pair_arrays(Body& body) const;
   const PairKernels& kernels() const;
   // 2 sum_j w_ij / L_ij / m_i; weight(i, p)
@@ -127,6 +139,9 @@ class Peridynamic : public Formulation {
   double* interactions_ = nullptr;
 
  private:
+  void share_stencil(const Body& body);
+  // Other bonds of points carry than before.
+  void rewire(std::int64_t i);
   void refuse_groups(const Body& body) const;
   void take_positions(const Body& body, ThreadTeam& team);
   void find_broken(Body& body, ThreadTeam& team);
@@ -134,6 +149,9 @@ class Peridynamic : public Formulation {
   void record_events(Body& body, const Clock& clock);
   Mat<3> fitted_gradient(const Body& body, std::int64_t i) const;
 
+  std::optional<PairForm> pair_form_;
+  const double* alpha_of_pairs_ = nullptr;
+  LatticePairs lattice_pairs_;  // active: instead of the kernels for any cloud
   double stable_step_ = 0;
   std::vector<double> rates_;  // (n) several materials, else of the stiffest point alone
   std::vector<char> flag_;     // (n) a bond may be beyond its limit

@@ -64,19 +64,17 @@ CLEAVE_INLINE void put(const Lanes (&f)[3], double* force, std::int64_t i) {
   for (int k = 0; k < 3; ++k) force[3 * i + k] = sum_of(f[k]);
 }
 
-enum class Form { product, sum, series, mean };
-
-template <Form kForm>
+template <PairForm kForm>
 CLEAVE_INLINE Lanes weight_of(const PairArrays& a, const Eight& eight, const Lanes& right,
                               std::int64_t i) {
-  if constexpr (kForm == Form::product) return a.left[i] * right;
-  if constexpr (kForm == Form::sum) return a.left[i] + right;
+  if constexpr (kForm == PairForm::product) return a.left[i] * right;
+  if constexpr (kForm == PairForm::sum) return a.left[i] + right;
   const Lanes both = a.alpha[i] + eight.scalars(a.alpha);
-  if constexpr (kForm == Form::series) return a.left[i] * right / both;
+  if constexpr (kForm == PairForm::series) return a.left[i] * right / both;
   return a.left[i] * right * both;
 }
 
-template <Form kForm>
+template <PairForm kForm>
 void pair_force(const PairArrays& arrays, std::int64_t first, std::int64_t last) {
   const PairArrays a = arrays;
   for (std::int64_t i = first; i < last; ++i) {
@@ -174,10 +172,10 @@ void stretched(const PairArrays& arrays, std::int64_t first, std::int64_t last, 
 
 extern const cleave_call::PairKernels kPairKernels;
 constinit const cleave_call::PairKernels kPairKernels = {
-    &peridynamics::pair_force<peridynamics::Form::product>,
-    &peridynamics::pair_force<peridynamics::Form::sum>,
-    &peridynamics::pair_force<peridynamics::Form::series>,
-    &peridynamics::pair_force<peridynamics::Form::mean>,
+    {&peridynamics::pair_force<peridynamics::PairForm::product>,
+     &peridynamics::pair_force<peridynamics::PairForm::sum>,
+     &peridynamics::pair_force<peridynamics::PairForm::series>,
+     &peridynamics::pair_force<peridynamics::PairForm::mean>},
     &peridynamics::extension,
     &peridynamics::state_force,
     &peridynamics::stretched};

@@ -7,6 +7,11 @@
 
 namespace cleave_call {
 
+// Weight w_ij of the force on i: left_i right_j, or left_i + right_j                       [PD bond, one]
+// and left_i right_j/(alpha_i + alpha_j), or times that.                                  [PD interface]
+enum class PairForm { product, sum, series, mean };
+inline constexpr int kPairForms = 4;
+
 // Rows of four numbers a point, so that a neighbour is one load.
 struct PairArrays {
   const std::int32_t* row_begin;   // (n+1)
@@ -29,12 +34,8 @@ struct PairArrays {
 };
 
 struct PairKernels {
-  // f_i = sum_j w_ij (l - L)/L n, w_ij = left_i right_j or left_i + right_j.      [PD bond, one]
-  void (*product)(const PairArrays&, std::int64_t first, std::int64_t last);
-  void (*sum)(const PairArrays&, std::int64_t first, std::int64_t last);
-  // The same with w_ij = left_i right_j/(alpha_i + alpha_j), or times that.        [PD interface]
-  void (*series)(const PairArrays&, std::int64_t first, std::int64_t last);
-  void (*mean)(const PairArrays&, std::int64_t first, std::int64_t last);
+  // f_i = sum_j w_ij (l - L)/L n, by form
+  void (*force[kPairForms])(const PairArrays&, std::int64_t first, std::int64_t last);
   // sum_j omega L e v_j and sum_j omega e^2 v_j over intact bonds                  [PD lps]
   void (*extension)(const PairArrays&, std::int64_t first, std::int64_t last);
   // Force only: f_i = v_i sum_j v_j omega ((alpha_i + alpha_j) e + (T_i + T_j) L) n
@@ -49,5 +50,6 @@ struct PairKernels {
 
 namespace cleave::peridynamics {
 using cleave_call::PairArrays;
+using cleave_call::PairForm;
 using cleave_call::PairKernels;
 }  // namespace cleave::peridynamics

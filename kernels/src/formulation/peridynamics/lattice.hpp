@@ -7,7 +7,7 @@
 
 #include "formulation/peridynamics/neighbourhood.hpp"
 
-namespace cleave::cpd {
+namespace cleave::peridynamics {
 
 struct Lattice {
   double spacing = 0;                   // [m]; 0: no lattice
@@ -18,9 +18,12 @@ struct Lattice {
 
 // No lattice: points off it by more than 1e-6 spacings, two in one cell, or more than seven in eight cells
 // of the box around the body empty.
-Lattice find_lattice(const peridynamics::Neighbourhood& hood);
+Lattice find_lattice(const Neighbourhood& hood);
+
+// Axes, the longest first.
+std::array<std::size_t, 3> axes_by_length(const Lattice& lattice);
 
 // Points of the whole lattice within the horizon of one of them, itself not counted.
-std::int64_t full_neighbours(const peridynamics::Neighbourhood& hood, double spacing);
+std::int64_t full_neighbours(const Neighbourhood& hood, double spacing);
 
-}  // namespace cleave::cpd
+}  // namespace cleave::peridynamics

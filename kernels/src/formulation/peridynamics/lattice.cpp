@@ -1,10 +1,10 @@
-#include "formulation/cpd/lattice.hpp"
+#include "formulation/peridynamics/lattice.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace cleave::cpd {
+namespace cleave::peridynamics {
 
 namespace {
 
@@ -13,7 +13,7 @@ constexpr double kLeastFilled = 0.125;
 
 }  // namespace
 
-Lattice find_lattice(const peridynamics::Neighbourhood& hood) {
+Lattice find_lattice(const Neighbourhood& hood) {
   double nearest = std::numeric_limits<double>::infinity();
   for (auto b = hood.first(0); b < hood.last(0); ++b)
     nearest = std::fmin(nearest, hood.length(0, hood.neighbour(b)));
@@ -59,7 +59,15 @@ Lattice find_lattice(const peridynamics::Neighbourhood& hood) {
   return lattice;
 }
 
-std::int64_t full_neighbours(const peridynamics::Neighbourhood& hood, double spacing) {
+std::array<std::size_t, 3> axes_by_length(const Lattice& lattice) {
+  std::array<std::size_t, 3> axes{0, 1, 2};
+  std::stable_sort(axes.begin(), axes.end(), [&](std::size_t a, std::size_t b) {
+    return lattice.shape[a] > lattice.shape[b];
+  });
+  return axes;
+}
+
+std::int64_t full_neighbours(const Neighbourhood& hood, double spacing) {
   const double limit = hood.square_limit / (spacing * spacing);
   const auto reach = static_cast<std::int64_t>(std::sqrt(limit)) + 1;
   const std::int64_t along[3] = {reach, hood.dimension > 1 ? reach : 0,
@@ -72,4 +80,4 @@ std::int64_t full_neighbours(const peridynamics::Neighbourhood& hood, double spa
   return count;
 }
 
-}  // namespace cleave::cpd
+}  // namespace cleave::peridynamics
