@@ -62,6 +62,8 @@ Stepping::Stepping(const Deck& deck)
       relaxes_(deck.one("static").text("method") == "relaxation"),
       by_events_(deck.one("static").text("loading") == "events"),
       breaking_(breaking_of(deck.one("static").text("breaking"))),
+      solver_(deck.one("static").text("solver") == "iterative" ? CLEAVE_SOLVER_ITERATIVE
+                                                               : CLEAVE_SOLVER_DIRECT),
       tolerance_(deck.one("static").real("tolerance")),
       max_iterations_(deck.one("static").integer("max_iterations")),
       cut_backs_(deck.one("static").integer("cut_backs")) {
@@ -135,6 +137,7 @@ cleave_static_options Stepping::static_options() const {
   if (tolerance_ > 0) options.tolerance = tolerance_;
   if (max_iterations_ > 0) options.max_iterations = static_cast<std::int32_t>(max_iterations_);
   options.breaking = breaking_;
+  options.solver = solver_;
   options.stop_at_limit = by_events_ ? 1 : 0;
   return options;
 }

@@ -51,7 +51,7 @@ class Stepping {
   std::int32_t relax(Model& model, double time, const StepWatch& watch, StepReport& report) const;
 
   bool static_, adapt_, relaxes_, by_events_;
-  std::int32_t breaking_;
+  std::int32_t breaking_, solver_;
   double tolerance_;
   std::int64_t max_iterations_, cut_backs_;
 };

@@ -462,7 +462,9 @@ CLEAVE_API int32_t cleave_model_update(cleave_model* model);
  * external_force, solve_static.  Newton's method with the consistent tangent; inertia, viscosity and
  * rates play no part; prescribed degrees of freedom go where cleave_body_motion says. */
 enum cleave_solver {
-  CLEAVE_SOLVER_DIRECT = 0 /* the stiffness is factorised */
+  CLEAVE_SOLVER_DIRECT = 0,   /* the stiffness is factorised */
+  CLEAVE_SOLVER_ITERATIVE = 1 /* conjugate gradients, for a symmetric positive definite stiffness: less memory
+                                 and time in large bodies */
 };
 enum cleave_breaking {
   CLEAVE_BREAKING_ALL = 1, /* every bond that fails in an equilibrium */

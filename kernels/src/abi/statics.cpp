@@ -23,15 +23,19 @@ Breaking breaking_of(std::int32_t value) {
                                         "CLEAVE_BREAKING_TIES"));
 }
 
+Solver solver_of(std::int32_t value) {
+  if (value == CLEAVE_SOLVER_DIRECT) return Solver::direct;
+  if (value == CLEAVE_SOLVER_ITERATIVE) return Solver::iterative;
+  throw Error(CLEAVE_BAD_ARGUMENT, text("solver is ", value,
+                                        "; allowed: CLEAVE_SOLVER_DIRECT, "
+                                        "CLEAVE_SOLVER_ITERATIVE"));
+}
+
 StaticOptions options_of(const cleave_static_options* options) {
   if (options == nullptr) return {};
   check_size(*options, "cleave_static_options");
-  if (options->solver != CLEAVE_SOLVER_DIRECT) {
-    throw Error(CLEAVE_BAD_ARGUMENT,
-                text("solver is ", options->solver, "; allowed: CLEAVE_SOLVER_DIRECT"));
-  }
   return {options->tolerance, options->max_iterations, options->stop_at_limit != 0,
-          breaking_of(options->breaking)};
+          breaking_of(options->breaking), solver_of(options->solver)};
 }
 
 template <class Solve>

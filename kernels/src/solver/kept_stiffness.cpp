@@ -13,12 +13,17 @@ constexpr double kSingular = 1e-10;
 constexpr double kHinge = 1e-10;
 // Of a bond, but for loose ends: its own and one of each end.
 constexpr double kColumns = 3;
+// Bonds that iterations correct for: multigrid of the matrix before serves as well that long.
+constexpr double kIterated = 50;
 
 }  // namespace
 
-void KeptStiffness::follow(Body& body) {
+void KeptStiffness::follow(Body& body, Solver solver, ThreadTeam& team) {
   std::int32_t& factored = body.fields.integer("factored_bonds")[0];
   const std::int64_t broken = body.formulation->broken_bonds();
+  team_ = &team;
+  if (solver_ != solver) factored_ = -1;
+  solver_ = solver;
   if (factored_ != factored || factored_ + added_ > broken) factorise(body, factored);
   if (static_cast<double>(broken - factored_) <= worthwhile()) {
     while (factored_ + added_ < broken) add_change(body, factored_ + added_ + 1);
@@ -31,13 +36,13 @@ void KeptStiffness::follow(Body& body) {
 // Over a cycle of m corrections a solution costs F/m + b m/2 more than the factor's own, with F the operations to find it
 // and b those of one more correction: least at m = sqrt(2 F/b). And the columns shall not need more memory than the factor.
 double KeptStiffness::worthwhile() const {
+  if (solver_ == Solver::iterative) return kIterated;
   const auto n = static_cast<double>(std::max<std::int64_t>(equations_.count, 1));
   const double cycle = std::sqrt(2 * base_->operations() / (2 * n * kColumns));
   return std::fmin(cycle, base_->entries() / (n * kColumns));
 }
 
 void KeptStiffness::factorise(const Body& body, std::int64_t broken) {
-  base_ = std::make_unique<DirectSolver>();
   factored_ = broken;
   added_ = 0;
   ++factorisations_;
@@ -49,22 +54,48 @@ void KeptStiffness::factorise(const Body& body, std::int64_t broken) {
   equations_ = Equations(body, broken);
   Stiffness k;
   assemble_after(body, broken, equations_, k);
-  if (base_->factor(k.free, true)) return;
-  const std::int64_t weakest = base_->weakest();
-  if (broken > 0 && hold_hinges(k.free)) return;
+  if (factor(body, k.free)) return;
+  const std::int64_t weakest = weakest_;
+  if (broken > 0 && hold_hinges(body, k.free)) return;
   factored_ = -1;
   throw singular(body, equations_, weakest);
 }
 
+// False: it is singular.
+bool KeptStiffness::factor(const Body& body, SparseMatrix& k) {
+  base_.reset();
+  iterative_.reset();
+  if (solver_ == Solver::direct) {
+    base_ = std::make_unique<DirectSolver>();
+    const bool regular = base_->factor(k, true);
+    weakest_ = base_->weakest();
+    return regular;
+  }
+  iterative_ = std::make_unique<IterativeSolver>(*team_);
+  const Multigrid::Kind kind = iterative_->set_up(k, particles_of(equations_, body));
+  weakest_ = iterative_->weakest();
+  if (kind == Multigrid::Kind::indefinite)
+    throw Error(CLEAVE_NO_CONVERGENCE, text(body.label(), ": no equilibrium: ", kIndefinite));
+  return kind == Multigrid::Kind::definite;
+}
+
+bool KeptStiffness::renew(Body& body) {
+  if (added_ == 0) return false;
+  const std::int64_t broken = factored_ + added_;
+  body.fields.integer("factored_bonds")[0] = static_cast<std::int32_t>(broken);
+  factorise(body, broken);
+  return true;
+}
+
 // A piece that breaking has left on a hinge can turn without resistance: a little of it, which the forces do
 // not know, so that the equilibrium is exact, and not found if the piece is loaded.    [ST hinge]
-bool KeptStiffness::hold_hinges(SparseMatrix& k) {
+bool KeptStiffness::hold_hinges(const Body& body, SparseMatrix& k) {
+  if (iterative_ != nullptr) k = iterative_->matrix();
   double largest = 0;
   for (Eigen::Index c = 0; c < k.rows(); ++c)
     largest = std::fmax(largest, std::fabs(k.coeff(c, c)));
   for (Eigen::Index c = 0; c < k.rows(); ++c) k.coeffRef(c, c) += kHinge * largest;
-  base_ = std::make_unique<DirectSolver>();
-  hinges_ = base_->factor(k, true);
+  hinges_ = factor(body, k);
   return hinges_;
 }
 
@@ -82,7 +113,7 @@ void KeptStiffness::add_change(const Body& body, std::int64_t event) {
   const Eigen::Index before = std::ssize(columns_);
   for (const auto& column : change.columns) {
     Column entries;
-    Vector dense = Vector::Zero(equations_.count);
+    Vector dense = Vector::Zero(solver_ == Solver::direct ? equations_.count : 0);
     for (std::size_t c = 0; c < column.values.size(); ++c) {
       const auto dof =
           static_cast<std::size_t>(kVector) * static_cast<std::size_t>(column.particles[c / d]) +
@@ -90,18 +121,19 @@ void KeptStiffness::add_change(const Body& body, std::int64_t event) {
       const std::int32_t equation = equations_.of[dof];
       if (equation < 0) continue;
       entries.emplace_back(equation, column.values[c]);
-      dense[equation] += column.values[c];
+      if (solver_ == Solver::direct) dense[equation] += column.values[c];
     }
     columns_.push_back(std::move(entries));
-    solved_.push_back(base_->solve(dense));
+    if (solver_ == Solver::direct) solved_.push_back(base_->solve(dense));
   }
   weights_.push_back(change.weight);
+  ++added_;
+  if (solver_ == Solver::iterative) return;
   const Eigen::Index now = std::ssize(columns_);
   cross_.conservativeResize(now, now);
   for (Eigen::Index r = 0; r < now; ++r)
     for (Eigen::Index c = r < before ? before : 0; c < now; ++c)
       cross_(r, c) = product(columns_[static_cast<std::size_t>(r)], c);
-  ++added_;
 }
 
 bool KeptStiffness::finish() {
@@ -115,28 +147,46 @@ bool KeptStiffness::finish() {
         weight_(place + r, place + c) = block[static_cast<std::size_t>(width * r + c)];
     place += width;
   }
-  if (size == 0) return true;
+  if (size == 0 || solver_ == Solver::iterative) return true;
   const Eigen::MatrixXd whole = Eigen::MatrixXd::Identity(size, size) + weight_ * cross_;
   small_.compute(whole);
   return small_.rcond() > kSingular;
 }
 
-Vector KeptStiffness::solve(const Vector& r) const {
-  Vector x = base_->solve(r);
-  const Eigen::Index size = std::ssize(columns_);
-  if (size == 0) return x;
-  Vector pulled(size);
-  for (Eigen::Index c = 0; c < size; ++c) {
-    pulled[c] = 0;
+Vector KeptStiffness::pulled(const Vector& x) const {
+  Vector sums = Vector::Zero(std::ssize(columns_));
+  for (Eigen::Index c = 0; c < sums.size(); ++c)
     for (const auto& [equation, value] : columns_[static_cast<std::size_t>(c)])
-      pulled[c] += value * x[equation];
+      sums[c] += value * x[equation];
+  return sums;
+}
+
+// q + V W V^T p
+void KeptStiffness::add_changes(const Vector& p, Vector& q) const {
+  const Vector share = weight_ * pulled(p);
+  for (Eigen::Index c = 0; c < share.size(); ++c)
+    for (const auto& [equation, value] : columns_[static_cast<std::size_t>(c)])
+      q[equation] += share[c] * value;
+}
+
+bool KeptStiffness::solve(const Vector& r, double tolerance, Vector& x) {
+  if (iterative_ != nullptr) {
+    const auto end = iterative_->solve(
+        r, tolerance, [this](const Vector& p, Vector& q) { add_changes(p, q); }, x);
+    if (end == IterativeSolver::End::converged) return true;
+    why_ = iterative_->why(end, tolerance);
+    return false;
   }
-  const Vector share = small_.solve(weight_ * pulled);
-  for (Eigen::Index c = 0; c < size; ++c) x -= share[c] * solved_[static_cast<std::size_t>(c)];
-  return x;
+  x = base_->solve(r);
+  if (columns_.empty()) return true;
+  const Vector share = small_.solve(weight_ * pulled(x));
+  for (Eigen::Index c = 0; c < share.size(); ++c)
+    x -= share[c] * solved_[static_cast<std::size_t>(c)];
+  return true;
 }
 
 std::int64_t KeptStiffness::bytes() const {
+  if (iterative_ != nullptr) return iterative_->bytes();
   if (base_ == nullptr) return 0;
   return base_->bytes() + std::ssize(solved_) * equations_.count * 8;
 }

@@ -1,10 +1,17 @@
 #include "solver/newton.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "solver/iterative_solver.hpp"
 
 namespace cleave {
 
 namespace {
+
+// Of conjugate gradients: part of the wanted residual that they may leave, and their tolerance at most and at least.
+constexpr double kSlack = 0.1, kCoarsest = 0.1, kFinest = 1e-13;
 
 Error no_convergence(const Body& body, const std::string& why,
                      const char* remedy = "use a smaller load increment") {
@@ -30,7 +37,7 @@ Newton::Newton(Body& body, const Clock& clock, ThreadTeam& team, const StaticOpt
       external_(committed_.values("external_force")),
       jump_(displacement_.size(), 0.0) {
   if (constant_) {
-    kept_.follow(body);
+    kept_.follow(body, options.solver, team);
     check_loads();
   } else {
     equations_ = Equations(body, g_);
@@ -132,7 +139,7 @@ void Newton::move_boundary() {
 
 // K change = r - K_fixed jump.
 Vector Newton::direction(Vector r, bool with_jump) {
-  if (constant_) return kept_.solve(r);
+  if (constant_) return kept_direction(std::move(r));
   Stiffness k;
   if (!assemble(body_, g_, committed_.history(), equations_, k))
     throw no_convergence(body_, "the law has no tangent");
@@ -142,9 +149,44 @@ Vector Newton::direction(Vector r, bool with_jump) {
     boundary_force_ = r.norm();
   }
   constexpr double kSymmetric = 1e-7;  // difference tangents are good to 1e-8
+  if (options_.solver == Solver::iterative) {
+    if (k.asymmetry <= kSymmetric) return iterate(k.free, r);
+    throw Error(
+        CLEAVE_UNSUPPORTED,
+        text(body_.label(), ": the stiffness of its law is not symmetric, by ", k.asymmetry,
+             " of the largest entry, and conjugate gradients need that; use solver = 'direct'"));
+  }
   if (!solver_.factor(k.free, k.asymmetry <= kSymmetric))
     throw singular(body_, equations_, solver_.weakest());
   return solver_.solve(r);
+}
+
+// Where the conjugate gradients fail that bonds were corrected for, the stiffness is made anew first.
+Vector Newton::kept_direction(Vector r) {
+  // What is wanted of the forces is a part of what is there now.
+  const double tolerance = std::clamp(kSlack * options_.tolerance / relative_, kFinest, kCoarsest);
+  Vector x;
+  if (kept_.solve(r, tolerance, x)) return x;
+  if (kept_.renew(body_)) {
+    r = unbalanced_forces();
+    if (kept_.solve(r, tolerance, x)) return x;
+  }
+  throw no_convergence(body_, kept_.why());
+}
+
+// The forces that the moved boundary calls up may be a thousand times those of equilibrium.
+Vector Newton::iterate(SparseMatrix& k, const Vector& r) {
+  constexpr double kOfBoundary = 1e-3;
+  const double tolerance = std::fmax(kSlack * kOfBoundary * options_.tolerance, kFinest);
+  IterativeSolver solver(team_);
+  const Multigrid::Kind kind = solver.set_up(k, particles_of(equations_, body_));
+  if (kind == Multigrid::Kind::singular) throw singular(body_, equations_, solver.weakest());
+  if (kind == Multigrid::Kind::indefinite) throw no_convergence(body_, kIndefinite);
+  Vector x;
+  const IterativeSolver::End end = solver.solve(r, tolerance, {}, x);
+  if (end != IterativeSolver::End::converged)
+    throw no_convergence(body_, solver.why(end, tolerance));
+  return x;
 }
 
 // Takes the change, halved until the law has an answer and the residual does not grow (the first

@@ -39,6 +39,8 @@ class Newton {
   Vector unbalanced_forces() const;
   void move_boundary();
   Vector direction(Vector r, bool with_jump);
+  Vector kept_direction(Vector r);
+  Vector iterate(SparseMatrix& k, const Vector& r);
   double search(const Vector& change, double norm, bool with_jump);
 
   Body& body_;

@@ -10,11 +10,15 @@
 
 namespace cleave {
 
+// Of the linear systems.
+enum class Solver { direct, iterative };
+
 struct StaticOptions {
   double tolerance = 1e-9;  // on the norm of the residual over that of all forces
   int max_iterations = 25;
   bool stop_at_limit = false;
   Breaking breaking = Breaking::all;
+  Solver solver = Solver::direct;
 };
 
 struct StaticReport {

@@ -38,6 +38,8 @@ class Entries {
  public:
   Entries(const Equations& equations, Stiffness& k) : equations_(equations), k_(k) {
     k.fix.clear();
+    k.free.resize(equations.count, equations.count);
+    k.free.setZero();
   }
   std::int32_t equation(std::int32_t dof) const {
     return equations_.of[static_cast<std::size_t>(dof)];
@@ -46,17 +48,24 @@ class Entries {
   void add(std::int32_t row, std::int32_t dof, double value) {
     const std::int32_t column = equation(dof);
     if (column >= 0) {
+      if (free_.size() == kGathered) finish();
       free_.emplace_back(row, column, value);
     } else {
       k_.fix.emplace_back(row, dof, value);
     }
   }
   void finish() {
-    k_.free.resize(equations_.count, equations_.count);
-    k_.free.setFromTriplets(free_.begin(), free_.end());
+    SparseMatrix part(equations_.count, equations_.count);
+    part.setFromTriplets(free_.begin(), free_.end());
+    free_.clear();
+    if (k_.free.nonZeros() > 0) part = k_.free + part;
+    k_.free.swap(part);
   }
 
  private:
+  // Entries at a time: there are six of them for one of the matrix, and more memory for each.
+  static constexpr std::size_t kGathered = std::size_t{1} << 24;
+
   const Equations& equations_;
   Stiffness& k_;
   std::vector<Eigen::Triplet<double>> free_;

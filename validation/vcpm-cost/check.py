@@ -1,0 +1,147 @@
+"""What an elastic lattice plate costs against its size: implicit with a direct and an iterative solver, explicit, and by finite elements.
+
+Times are of the processor and of whole runs, set-up and files included.  With --full the smaller runs are made
+three times, and the shortest counts.
+"""
+import pathlib
+
+import matplotlib.pyplot as plt
+import numpy
+from tools import picture, rectangle
+from tools.simulation import Run
+
+HERE = pathlib.Path(__file__).resolve().parent
+WIDTH, HEIGHT = 10.0, 30.0                                # mm
+WAVE = numpy.sqrt(69000 * 0.7 / (1.3 * 0.4) / 2.7e-9)     # mm/s
+STEPS = 10_000
+COUNTS = (200, 1000)                                      # steps that a step's time is measured with in large plates
+# spacings across the width, by kind
+SIZES = {"quick": {"direct": (24, 40, 60, 100), "iterative": (24, 40, 60, 100), "fem": (24, 40, 60, 100), "fem-iterative": (24, 40, 60, 100),
+                   "relaxation": (24, 40), "explicit": (24, 40), "steps": ()},
+         "full": {"direct": (24, 40, 60, 100, 170, 300), "iterative": (24, 40, 60, 100, 170, 300, 540),
+                  "fem": (24, 40, 60, 100, 170, 300), "fem-iterative": (24, 40, 60, 100, 170, 300, 540),
+                  "relaxation": (24, 40, 60, 100), "explicit": (24, 40, 60, 100), "steps": (170, 300, 540)}}
+FITTED = {"direct": 40, "iterative": 40, "fem": 40, "fem-iterative": 40, "relaxation": 24, "explicit": 24}  # exponents from this size on
+REPEATED = 100                                            # up to this size
+
+
+def rows(n):
+    """The odd number of rows nearest to the height, with the particles at both ends of the outer ones."""
+    count = round(HEIGHT / (WIDTH / n * numpy.sqrt(0.75)))
+    return count + 1 - count % 2
+
+
+def particles(n):
+    return sum(n + 1 - row % 2 for row in range(rows(n)))
+
+
+def height(n):
+    """Of the rectangle through the outer particles."""
+    return float((rows(n) - 1) * WIDTH / n * numpy.sqrt(0.75))
+
+
+def lattice(n):
+    return {"lattice.spacing": WIDTH / n, "lattice.size": (WIDTH, height(n) + 0.1 * WIDTH / n, 0)}
+
+
+def implicit(name, n, method, solver):
+    return Run(name, "plate.nml", lattice(n) | {"static.method": method, "static.solver": solver})
+
+
+def finite_elements(name, n, solver):
+    """As many nodes as particles: corners and middles of equal elements, three times as many along as across."""
+    count = round((particles(n) / 12) ** 0.5)
+    x, y = numpy.linspace(0, WIDTH, count + 1), numpy.linspace(0, height(n), 3 * count + 1)
+    return Run(name, "fem.nml", {"zone(1).centre": (0, height(n), 0), "static.solver": solver}, inputs={"rectangle.msh": rectangle.mesh(x, y)})
+
+
+def explicit(name, n, steps):
+    """A step is half of the time that a wave takes from particle to particle; the load needs all steps."""
+    step = float(0.5 * WIDTH / n / WAVE)
+    return Run(name, "explicit.nml", lattice(n) | {"run.time_step": step, "run.t_end": steps * step, "load(2).ramp": steps * step})
+
+
+def made(kind, name, n):
+    if kind in ("direct", "iterative"):
+        return implicit(name, n, "newton", kind)
+    if kind == "relaxation":
+        return implicit(name, n, "relaxation", "direct")
+    if kind == "explicit":
+        return explicit(name, n, STEPS)
+    return finite_elements(name, n, "iterative" if kind == "fem-iterative" else "direct")
+
+
+def repeats(mode, kind, n):
+    return 3 if mode == "full" and n <= REPEATED and kind not in ("relaxation", "explicit") else 1
+
+
+def runs(mode):
+    sizes = SIZES[mode]
+    found = [made(kind, f"{kind}-{n}-{number}", n) for kind in FITTED for n in sizes[kind] for number in range(repeats(mode, kind, n))]
+    return found + [explicit(f"steps-{n}-{count}", n, count) for n in sizes["steps"] for count in COUNTS]
+
+
+# ---- figures
+
+def reaction(case, kind, n):
+    """N/mm, of the lower edge."""
+    return -case.results[f"{kind}-{n}-0"].history["reaction_bottom_y"][-1]
+
+
+def time(case, kind, n):
+    """Processor time, s.  Of a large explicit run: that of 200 steps and 9800 times what another one costs."""
+    if kind == "explicit" and n in SIZES[case.mode]["steps"]:
+        few, more = (case.results[f"steps-{n}-{count}"].cost["processor"] for count in COUNTS)
+        return few + (more - few) * (STEPS - COUNTS[0]) / (COUNTS[1] - COUNTS[0])
+    return min(case.results[f"{kind}-{n}-{number}"].cost["processor"] for number in range(repeats(case.mode, kind, n)))
+
+
+def sizes(case, kind):
+    return SIZES[case.mode][kind] + (SIZES[case.mode]["steps"] if kind == "explicit" else ())
+
+
+def unknowns(n, kind):
+    """Particles, or nodes of finite elements."""
+    count = round((particles(n) / 12) ** 0.5)
+    return (2 * count + 1) * (6 * count + 1) if kind.startswith("fem") else particles(n)
+
+
+def exponent(case, kind):
+    """Of the time over the number of particles, least squares."""
+    chosen = [n for n in sizes(case, kind) if n >= FITTED[kind]]
+    return numpy.polyfit(numpy.log([unknowns(n, kind) for n in chosen]), numpy.log([time(case, kind, n) for n in chosen]), 1)[0]
+
+
+def check(case):
+    for kind in ("iterative", "relaxation", "explicit"):
+        for n in SIZES[case.mode][kind]:
+            if n in SIZES[case.mode]["direct"]:
+                case.figure(f"answer_{kind}_{n}", abs(reaction(case, kind, n) / reaction(case, "direct", n) - 1))
+    for n in SIZES[case.mode]["fem"]:
+        case.figure(f"answer_fem-iterative_{n}", abs(reaction(case, "fem-iterative", n) / reaction(case, "fem", n) - 1))
+    for kind in FITTED:
+        case.figure(f"exponent_{kind}", exponent(case, kind))
+        for n in sizes(case, kind):
+            case.figure(f"time_{kind}_{n}", time(case, kind, n))
+    for kind in ("direct", "iterative"):
+        for n in sizes(case, "explicit"):
+            if n in sizes(case, kind):
+                case.figure(f"ratio_{kind}_{n}", time(case, "explicit", n) / time(case, kind, n))
+    for kind in ("direct", "iterative", "fem", "fem-iterative"):
+        n = max(SIZES[case.mode][kind])
+        case.figure(f"memory_{kind}", case.results[f"{kind}-{n}-0"].cost["memory"] * 1e6 / unknowns(n, kind))
+
+
+def pictures(case, folder):
+    figure, axes = plt.subplots(figsize=(7.2, 5), layout="constrained")
+    styles = {"explicit": ("#1d2733", "s-", f"explicit, {STEPS} steps"), "relaxation": ("#8a6d00", "^-", "dynamic relaxation"),
+              "direct": ("#c4173a", "o-", "implicit, direct"), "iterative": ("#c4173a", "o:", "implicit, iterative"),
+              "fem": ("#1f6f8b", "x-", "finite elements, direct"), "fem-iterative": ("#1f6f8b", "x:", "finite elements, iterative")}
+    for kind, (colour, line, label) in styles.items():
+        axes.loglog([unknowns(n, kind) for n in sizes(case, kind)], [time(case, kind, n) for n in sizes(case, kind)], line, mfc="none", color=colour,
+                    label=f"{label}: {exponent(case, kind):.2f}")
+    axes.set(xlabel="particles, or nodes", ylabel="processor time, s", title="With the exponent of the number of particles")
+    axes.legend(fontsize=8)
+    axes.grid(color="#e3e8ee", which="both")
+    picture.save(figure, folder / "figure.png", dpi=110)
+    return [("figure.png", "Processor time against the number of particles")]
