@@ -128,6 +128,7 @@ BENCHMARK_CAPTURE(stress, small_lattice, "lattice")->Unit(benchmark::kMillisecon
 BENCHMARK_CAPTURE(stress, small_cloud, "never")->Unit(benchmark::kMillisecond);
 PLATE(small_cpd_cloud, cpd, kSmall, "never");
 PLATE(Kalthoff_bond_pd, bond_pd, kKalthoff, "lattice");
+PLATE(Kalthoff_bond_pd_cloud, bond_pd, kKalthoff, "never");
 PLATE(Kalthoff_lps, lps, kKalthoff, "lattice");
 PLATE(Kalthoff_cpd, cpd, kKalthoff, "lattice");
 PLATE(Kalthoff_cpd_cloud, cpd, kKalthoff, "never");

@@ -236,7 +236,7 @@ contains
     if (status == CLEAVE_OK .and. present(report)) report = static_report(answer)
   end function model_break_static
 
-  pure function static_report(answer) result(report)
+  pure recursive function static_report(answer) result(report)
     type(c_report), intent(in) :: answer
     type(cleave_static_report) :: report
     report%iterations = answer%iterations

@@ -551,7 +551,8 @@ typedef struct cleave_event {
   double midpoint[3];    /* reference position of the middle [m] */
   double criterion;      /* value of the criterion (bond strain) [1] */
   double limit;          /* its critical value [1] */
-  double released;       /* energy released by this bond [J]; the sum over bonds is the ledger's */
+  double released;       /* energy released by this bond [J]; the sum over bonds is the ledger's
+                            without what bonds have lost that soften and are not broken */
 } cleave_event;
 CLEAVE_API int32_t cleave_body_event_count(cleave_model* model, int64_t body, int64_t* count);
 CLEAVE_API int32_t cleave_body_event_get(cleave_model* model, int64_t body, int64_t index,
@@ -567,7 +568,7 @@ typedef struct cleave_energies {
   double elastic;           /* stored in the particles */
   double plastic;           /* plastic work */
   double stabilisation;     /* stored by the hourglass stabilisation */
-  double fracture;          /* released by breaking bonds */
+  double fracture;          /* released by bonds that break or soften */
   double viscous;           /* dissipated by artificial viscosity; by the damping of relaxation */
   double external;          /* work of external forces */
   double reaction;          /* work of the forces that keep prescribed motion */

@@ -8,6 +8,10 @@ void FieldStore::declare(const char* owner, std::span<const FieldSpec> specs) {
   for (const auto& s : specs) fields_.push_back({s, owner, 0, {}, {}});
 }
 
+void FieldStore::drop(std::string_view name) {
+  std::erase_if(fields_, [&](const Field& f) { return name == f.spec.name; });
+}
+
 void FieldStore::merge(cleave_relation from, cleave_relation to) {
   for (auto& f : fields_) {
     if (f.spec.relation == from) f.spec.relation = to;

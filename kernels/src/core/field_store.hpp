@@ -22,6 +22,8 @@ class FieldStore {
  public:
   // Adds every field of `owner`; storage comes with allocate().
   void declare(const char* owner, std::span<const FieldSpec> specs);
+  // Takes a field away that this body has no use for; before anything points to it.
+  void drop(std::string_view name);
   // Fields of relation `from` become fields of relation `to`; before allocate.
   void merge(cleave_relation from, cleave_relation to);
   // Gives all fields of a relation their size, zero-filled. Derived fields get a count only.

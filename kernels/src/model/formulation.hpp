@@ -112,6 +112,8 @@ class Formulation {
   virtual void stiffness_bound(const Body& body, ThreadTeam& team, std::span<double> bound);
   // What dynamic relaxation would miss, as a sentence; empty: nothing.
   virtual std::string relaxation_obstacle(const Body&) const { return {}; }
+  // What breaking one bond at a time would miss, as a sentence; empty: nothing.
+  virtual std::string one_bond_obstacle(const Body&) const { return {}; }
   // As break_bonds, for the bond that is furthest beyond its limit and the ties. False: this formulation breaks
   // bonds and cannot choose among them.
   virtual bool break_most_critical(Body&, const Clock&, ThreadTeam&, Breaking) { return false; }
@@ -124,8 +126,8 @@ class Formulation {
   // none: a matrix with them would be singular.
   virtual void release_loose(Body&, const Clock&, ThreadTeam&) {}
 
-  // The parts of a step, in this order.
-  virtual void break_bonds(Body& body, const Clock& clock, ThreadTeam& team) = 0;
+  // The parts of a step, in this order. Whether bonds broke or carry less than before.
+  virtual bool break_bonds(Body& body, const Clock& clock, ThreadTeam& team) = 0;
   // Displacement gradient, then stress.
   virtual void deform(Body& body, const Clock& clock, ThreadTeam& team) = 0;
   virtual void forces(Body& body, ThreadTeam& team) = 0;  // sets internal and viscous force

@@ -6,8 +6,8 @@ namespace cleave {
 
 namespace {
 
-// Of the largest pivot: rounding of an entry that cancels is 1e-16 of what it was.
-constexpr double kSmallestPivot = 1e-14;
+// Of the entry on the diagonal: what is left of it where nothing resists is rounding, 1e-16 times the steps it took.
+constexpr double kSmallestPivot = 1e-12;
 
 }  // namespace
 
@@ -18,13 +18,13 @@ bool DirectSolver::factor(const SparseMatrix& k, bool symmetric) {
     if (!analysed_) symmetric_.analyzePattern(k);
     analysed_ = true;
     symmetric_.factorize(k);
-    if (symmetric_.info() == Eigen::Success) return well_conditioned();
+    if (symmetric_.info() == Eigen::Success) return well_conditioned(k.diagonal().cwiseAbs());
   }
   general_.emplace(k);
   return general_->info() == Eigen::Success;
 }
 
-bool DirectSolver::well_conditioned() {
+bool DirectSolver::well_conditioned(const Vector& diagonal) {
   const Vector pivots = symmetric_.vectorD().cwiseAbs();
   const auto* begin = symmetric_.matrixL().nestedExpression().outerIndexPtr();
   operations_ = entries_ = 0;
@@ -33,12 +33,10 @@ bool DirectSolver::well_conditioned() {
     operations_ += count * count;
     entries_ += count;
   }
-  if (pivots.size() == 0) return true;
-  Eigen::Index place = 0;
-  const double least = pivots.minCoeff(&place);
-  if (least > kSmallestPivot * pivots.maxCoeff()) return true;
-  weakest_ = symmetric_.permutationPinv().indices()[place];
-  return false;
+  const auto& equation = symmetric_.permutationPinv().indices();
+  for (Eigen::Index c = 0; c < pivots.size() && weakest_ == kNoEquation; ++c)
+    if (!(pivots[c] > kSmallestPivot * diagonal[equation[c]])) weakest_ = equation[c];
+  return weakest_ == kNoEquation;
 }
 
 }  // namespace cleave

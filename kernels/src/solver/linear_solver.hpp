@@ -34,7 +34,7 @@ class DirectSolver {
   std::int64_t bytes() const { return static_cast<std::int64_t>(entries_ * 12); }
 
  private:
-  bool well_conditioned();
+  bool well_conditioned(const Vector& diagonal);
 
   Eigen::SimplicialLDLT<SparseMatrix> symmetric_;
   std::optional<Eigen::SparseLU<SparseMatrix>> general_;

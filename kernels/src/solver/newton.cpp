@@ -13,10 +13,13 @@ namespace {
 // Of conjugate gradients: part of the wanted residual that they may leave, and their tolerance at most and at least.
 constexpr double kSlack = 0.1, kCoarsest = 0.1, kFinest = 1e-13;
 
-Error no_convergence(const Body& body, const std::string& why) {
-  return Error(CLEAVE_NO_CONVERGENCE,
-               text(body.label(), ": no equilibrium: ", why, "; use a smaller load increment"));
+Error no_convergence(const Body& body, const std::string& why,
+                     const char* remedy = "use a smaller load increment") {
+  return Error(CLEAVE_NO_CONVERGENCE, text(body.label(), ": no equilibrium: ", why, "; ", remedy));
 }
+// Breaking has set free what carries a load.
+constexpr const char* kTorn =
+    "the body is torn: end the run before, or prescribe displacements in place of the load";
 
 }  // namespace
 
@@ -53,9 +56,10 @@ void Newton::check_loads() const {
     prescribed[static_cast<std::size_t>(kVector * dof.particle + dof.direction)] = 1;
   for (std::size_t c = 0; c < external_.size(); ++c) {
     if (external_[c] == 0 || prescribed[c] != 0 || is_free(c)) continue;
-    throw no_convergence(
-        body_, text(body_.particle_label(static_cast<std::int64_t>(c) / kVector), " is loaded by ",
-                    external_[c], " [N] and nothing holds it any more"));
+    throw no_convergence(body_,
+                         text(body_.particle_label(static_cast<std::int64_t>(c) / kVector),
+                              " is loaded by ", external_[c], " [N] and nothing holds it any more"),
+                         kTorn);
   }
 }
 
@@ -95,13 +99,11 @@ void Newton::find(bool loading) {
     relative_ = scale > 0 && norm > kRounding * boundary_force_ ? norm / scale : 0.0;
     if (!with_jump && relative_ <= options_.tolerance) return;
     if (iterations_ == options_.max_iterations) {
-      throw no_convergence(
-          body_,
-          text("residual ", relative_, " of the forces after ", iterations_, " iterations, wanted ",
-               options_.tolerance,
-               constant_ && kept_.has_hinges()
-                   ? "; breaking has left a piece that can move without resistance and is loaded"
-                   : ""));
+      const std::string what = text("residual ", relative_, " of the forces after ", iterations_,
+                                    " iterations, wanted ", options_.tolerance);
+      if (!constant_ || !kept_.has_hinges()) throw no_convergence(body_, what);
+      throw no_convergence(body_, "a piece is loaded and nothing holds it any more, " + what,
+                           kTorn);
     }
     norm = search(direction(r, with_jump), norm, with_jump);
     r = unbalanced_forces();

@@ -157,16 +157,18 @@ void BodyRelaxation::book() {
 bool BodyRelaxation::break_bonds() {
   ramp_ = 0;
   const std::size_t before = body_.events.size();
+  bool changed = false;
   if (options_.breaking == Breaking::all) {
-    body_.formulation->break_bonds(body_, clock_, team_);
+    changed = body_.formulation->break_bonds(body_, clock_, team_);
   } else if (!body_.formulation->break_most_critical(body_, clock_, team_, options_.breaking)) {
     throw Error(CLEAVE_UNSUPPORTED, text(body_.label(), ": formulation ", body_.formulation->name(),
                                          " cannot break one bond at a time; break all that fail"));
   }
   const auto failed = static_cast<std::int64_t>(body_.events.size() - before);
+  changed = changed || failed > 0;
   broken_ += failed;
-  rounds_ += failed > 0 ? 1 : 0;
-  return failed > 0;
+  rounds_ += changed ? 1 : 0;
+  return changed;
 }
 
 void BodyRelaxation::add_to(RelaxationReport& report) const {
@@ -193,7 +195,9 @@ Relaxation::Relaxation(cleave_model& model, double time_new, const RelaxationOpt
   for (auto& body : model.bodies) {
     take_fields(*body);
     body->formulation->gradient_operator(model.team);  // forces by rows
-    const std::string obstacle = body->formulation->relaxation_obstacle(*body);
+    std::string obstacle = body->formulation->relaxation_obstacle(*body);
+    if (obstacle.empty() && options.breaking != Breaking::all)
+      obstacle = body->formulation->one_bond_obstacle(*body);
     if (!obstacle.empty()) {
       throw Error(CLEAVE_UNSUPPORTED,
                   text(body->label(), ": dynamic relaxation cannot be used: ", obstacle));

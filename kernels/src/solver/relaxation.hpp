@@ -1,6 +1,6 @@
 // Quasi-static equilibrium by adaptive dynamic relaxation (Kilic and Madenci 2010), for every
 // formulation: forces are all it asks for, so bonds may break and there is no matrix. One increment is:
-// move the boundary and the forces, relax, break what has failed in equilibrium, relax again until
+// move the boundary and the forces, relax, break or soften what has failed in equilibrium, relax again until
 // nothing fails. The stiff and smooth problems of static_solver.hpp need fewer evaluations there.  [DR]
 #pragma once
 
@@ -23,7 +23,7 @@ struct RelaxationOptions {
 
 struct RelaxationReport {
   std::int64_t iterations = 0;  // evaluations of the forces, of all bodies
-  std::int64_t rounds = 0;      // how often bonds broke
+  std::int64_t rounds = 0;      // how often bonds broke or softened
   std::int64_t broken = 0;      // bonds
   std::int64_t unknowns = 0;
   double residual = 0;  // relative, the largest of the bodies

@@ -24,13 +24,15 @@ void check_options(const StaticOptions& options) {
                                         options.max_iterations, "; allowed: > 0 and >= 1"));
 }
 
-void check_body(Body& body) {
+void check_body(Body& body, const StaticOptions& options) {
   take_fields(body);
   if (!body.formulation->has_gradient_operator() && !body.formulation->has_stiffness()) {
     throw Error(CLEAVE_UNSUPPORTED, text(body.label(), ": formulation ", body.formulation->name(),
                                          " has no stiffness matrix to solve with; use relaxation"));
   }
-  const std::string obstacle = body.formulation->static_obstacle(body);
+  std::string obstacle = body.formulation->static_obstacle(body);
+  if (obstacle.empty() && (options.stop_at_limit || options.breaking != Breaking::all))
+    obstacle = body.formulation->one_bond_obstacle(body);
   if (obstacle.empty()) return;
   throw Error(CLEAVE_UNSUPPORTED,
               text(body.label(), ": the static solver cannot be used: ", obstacle));
@@ -96,23 +98,25 @@ void add(StaticReport& report, const Newton& newton) {
   report.unknowns += newton.unknowns();
 }
 
-// Which bonds break, and whose number is returned.
-std::int64_t break_in(Body& body, const Clock& clock, ThreadTeam& team, Breaking breaking) {
+// True: the body is another one now, with bonds that broke or only soften.
+bool break_in(Body& body, const Clock& clock, ThreadTeam& team, Breaking breaking) {
   const std::size_t before = body.events.size();
+  bool changed = false;
   if (breaking == Breaking::all) {
-    body.formulation->break_bonds(body, clock, team);
+    changed = body.formulation->break_bonds(body, clock, team);
   } else if (!body.formulation->break_most_critical(body, clock, team, breaking)) {
     throw Error(CLEAVE_UNSUPPORTED, text(body.label(), ": formulation ", body.formulation->name(),
                                          " cannot break one bond at a time; break all that fail"));
   }
-  if (body.events.size() > before) body.formulation->release_loose(body, clock, team);
-  return static_cast<std::int64_t>(body.events.size() - before);
+  if (body.events.size() == before) return changed;
+  body.formulation->release_loose(body, clock, team);
+  return true;
 }
 
 template <class Solve>
 StaticReport attempt(cleave_model& model, const StaticOptions& options, const Solve& solve) {
   check_options(options);
-  for (auto& body : model.bodies) check_body(*body);
+  for (auto& body : model.bodies) check_body(*body, options);
   const Before before(model);
   try {
     return solve(before);
@@ -153,14 +157,15 @@ StaticReport break_static(cleave_model& model, const StaticOptions& options) {
     StaticReport report;
     for (std::size_t b = 0; b < model.bodies.size(); ++b) {
       Body& body = *model.bodies[b];
-      const std::int64_t broken = break_in(body, clock, model.team, options.breaking);
-      if (broken == 0) continue;
-      report.broken += broken;
+      const std::size_t before = body.events.size();
+      if (!break_in(body, clock, model.team, options.breaking)) continue;
+      report.changed = true;
+      report.broken += static_cast<std::int64_t>(body.events.size() - before);
       Newton newton(body, clock, model.team, options, kept_of(model, b));
       newton.settle();
       add(report, newton);
     }
-    if (report.broken > 0) model.clock = clock;
+    if (report.changed) model.clock = clock;
     report.critical = CriticalBonds(model).count();
     return report;
   });

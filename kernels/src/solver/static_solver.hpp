@@ -27,6 +27,7 @@ struct StaticReport {
   double residual = 0;          // relative, the largest of the bodies
   double fraction = 1;          // below 1: of the way to where a first bond reaches its limit
   std::int64_t broken = 0;      // bonds
+  bool changed = false;         // bonds broke or softened
   std::int64_t critical = 0;    // bonds that are beyond their limits now
 };
 

@@ -72,7 +72,7 @@ class LinearSimplices final : public Formulation {
   void count(const Body&, cleave_counts& counts) const override { counts.simplices += count(); }
 
   // What this formulation does not have.
-  void break_bonds(Body&, const Clock&, ThreadTeam&) override {}
+  bool break_bonds(Body&, const Clock&, ThreadTeam&) override { return false; }
   void precrack(Body& body, std::span<const std::int64_t>) override {
     throw Error(CLEAVE_UNSUPPORTED, text(body.label(), ": linear_simplices has no bonds to break"));
   }

@@ -22,7 +22,8 @@ std::string strip(const std::string& statics, const std::string& more = "") {
          "&vcpm geometry='linear' criterion='strain' limit=0.01 /\n"
          "&precrack body='strip' shape='segment' points=-1,6.1,3.2,6.1 /\n"
          "&load name='foot' kind='displacement' set='ymin' directions='xy' /\n"
-         "&load name='head' kind='displacement' set='ymax' directions='xy' value=0,0.2 "
+         "&load name='grip' kind='displacement' set='ymax' directions='x' /\n"
+         "&load name='head' kind='displacement' set='ymax' directions='y' value=0.2 "
          "curve='linear' ramp=1 /\n&history every_steps=1 /\n&output every_steps=1 /\n"
          "&checkpoint every_steps=1 keep=20 /\n&static breaking='one' " +
          statics + " /\n" + more;
@@ -44,8 +45,7 @@ TEST_F(Breaking, EveryEquilibriumIsARecord) {
     EXPECT_LT(std::fabs(h.at("balance")[n]), 1e-10 * h.at("reaction")[n]);  // measured 3e-12
     // Nothing broken: the load goes up on a line; broken: it falls where it is.
     if (broken[n] == broken[n - 1]) {
-      EXPECT_NEAR(force[n] / time[n], n == 1 ? force[n] / time[n] : force[n - 1] / time[n - 1],
-                  1e-9 * std::fabs(force[n] / time[n]));
+      EXPECT_NEAR(force[n] * time[n - 1], force[n - 1] * time[n], 1e-9 * top);
     } else {
       EXPECT_EQ(time[n], time[n - 1]);
       EXPECT_LT(force[n], force[n - 1]);
@@ -88,10 +88,9 @@ TEST_F(Breaking, StopsBetweenEventsAndGoesOnWithTheSameBits) {
   }
   EXPECT_GT(stops, 15);
   for (const char* file : kFiles) {
-    EXPECT_EQ(file_bytes(path("cut") + "/" + file), file_bytes(path("whole") + "/" + file)) << file;
+    EXPECT_TRUE(file_bytes(path("cut") + "/" + file) == file_bytes(path("whole") + "/" + file))
+        << file;
   }
-  EXPECT_EQ(file_bytes(path("cut/case.2.checkpoint.nc")),
-            file_bytes(path("whole/case.2.checkpoint.nc")));
 }
 
 // When the strip has torn, its head is loaded by a force and nothing holds it.
@@ -103,7 +102,7 @@ TEST_F(Breaking, WithoutEquilibriumTheLastOneIsKept) {
       "&vcpm geometry='linear' criterion='strain' limit=0.01 /\n"
       "&precrack body='strip' shape='segment' points=-1,6.1,3.2,6.1 /\n"
       "&load name='foot' kind='displacement' set='ymin' directions='xy' /\n"
-      "&load name='head' kind='force' set='ymax' directions='y' value=0.02 "
+      "&load name='head' kind='force' set='ymax' directions='y' value=20 "
       "curve='linear' ramp=1 /\n&history every_steps=1 /\n"
       "&static breaking='one' increments=2 loading='events' /\n";
   const std::string said = message_of<RunError>([&] { run(kRun, pulled); });
@@ -119,8 +118,8 @@ TEST_F(Breaking, ABodyWithoutSupportIsRefused) {
   free.erase(foot, free.find('\n', foot) - foot);
   const std::string said = message_of<RunError>([&] { run(kRun, free, "free"); });
   EXPECT_EQ(said, "");  // the head holds it
-  const std::string both = "directions='xy' value=0,0.2";
-  free.replace(free.find(both), both.size(), "directions='y' value=0.2");
+  const auto grip = free.find("&load name='grip'");
+  free.erase(grip, free.find('\n', grip) - grip);
   EXPECT_TRUE(has(message_of<RunError>([&] { run(kRun, free); }), "can move without resistance"));
 }
 

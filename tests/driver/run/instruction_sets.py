@@ -36,7 +36,24 @@ BLOCK = """
 &checkpoint every_steps=15 /
 """
 SHEET = BLOCK.replace("size=11,6,4", "size=21,12,0").replace("'cubic'", "'square'").replace("'3d'", "'plane_strain'")
+# A lattice whose bonds soften, and one in space in the equations of small displacements.
+LATTICE = """
+&lattice type='hexagonal' spacing=1 size=20,12,0 /
+&notch lower=9,-1 upper=10.5,3 /
+&body name='sheet' kinematics='plane_strain' formulation='vcpm' material='unit' /
+&material name='unit' law='linear_elastic' E=1 nu=0.4 rho=1 /
+&vcpm criterion='strain' limit=0.01 softening='bilinear' final_strain=0.04 kink_strain=0.02 kink_force=0.3 /
+&load name='low' kind='velocity' set='xmin' directions='x' value=-0.04 /
+&load name='high' kind='velocity' set='xmax' directions='x' value=0.04 /
+&output every_steps=10 fields='damage','equivalent_stress' /
+&history every_steps=1 /
+&checkpoint every_steps=15 /
+"""
+BALLS = re.sub("&vcpm.*", "&vcpm geometry='linear' surface='extend' limit=0.02 /", LATTICE).replace(
+    "'hexagonal' spacing=1 size=20,12,0", "'fcc' spacing=1.5 size=16,8,6").replace("'plane_strain'", "'3d'")
 DECKS = {
+    "lattice": ("t_end=40", LATTICE),
+    "lattice-space": ("t_end=30", BALLS),
     "block": ("t_end=25", BLOCK),
     "block-weighed": ("t_end=25", BLOCK + "&cpd weights='conservative' /\n"),
     "block-cloud": ("t_end=25", BLOCK.replace("horizon=2.4", "horizon=2.4 stencil='never'")

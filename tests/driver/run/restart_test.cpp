@@ -6,7 +6,10 @@ namespace cleave::driver::testing {
 namespace {
 
 namespace fs = std::filesystem;
-using Restart = RunDirectory;
+class Restart : public RunDirectory {
+ protected:
+  void expect_same_bytes_after_cuts(const std::string& torn);
+};
 
 // A notched plate that is torn, with deletions before, at and after the cut, a follower pressure, a
 // force, and a load that is released.
@@ -42,11 +45,11 @@ std::int64_t events_at(const std::string& checkpoint) {
   return std::get<std::int64_t>(*archive.find_attribute("event_records"));
 }
 
-TEST_F(Restart, EveryCutGivesTheSameBytes) {
-  ASSERT_EQ(run("t_end=60", kTorn, "whole"), 0);
+// Cuts at every checkpoint of `torn`; bonds break before and after the one in the middle.
+void Restart::expect_same_bytes_after_cuts(const std::string& torn) {
+  ASSERT_EQ(run("t_end=60", torn, "whole"), 0);
   const std::int64_t end = last_step(path("whole"));
   const std::string last = "case." + std::to_string(end) + ".checkpoint.nc";
-  // the run is worth the test: bonds break before and after the cut in the middle
   const std::int64_t cut = end / 100 * 50;
   const auto before = events_at(path("whole/case." + std::to_string(cut) + ".checkpoint.nc"));
   EXPECT_GT(before, 0);
@@ -67,6 +70,20 @@ TEST_F(Restart, EveryCutGivesTheSameBytes) {
     }
     EXPECT_EQ(file_bytes(path("cut/" + last)), file_bytes(path("whole/" + last)));
   }
+}
+
+TEST_F(Restart, EveryCutGivesTheSameBytes) { expect_same_bytes_after_cuts(kTorn); }
+
+// Integrities of bonds are state.
+TEST_F(Restart, EveryCutOfASofteningBodyGivesTheSameBytes) {
+  std::string soft = kTorn;
+  const auto replace = [&](const std::string& what, const std::string& with) {
+    soft.replace(soft.find(what), what.size(), with);
+  };
+  replace("&body", "&body formulation='vcpm'");
+  replace("&fracture critical_strain=0.04 /\n&viscosity beta=0.3 length=1 /\n",
+          "&vcpm criterion='strain' limit=0.02 softening='linear' final_strain=0.06 /\n");
+  expect_same_bytes_after_cuts(soft);
 }
 
 TEST_F(Restart, ThreadsDoNotChangeTheBytes) {

@@ -163,8 +163,10 @@ std::string ContinuumBondMethod::static_obstacle(const Body&) const {
   return "";
 }
 
-void ContinuumBondMethod::break_bonds(Body& body, const Clock& clock, ThreadTeam& team) {
+bool ContinuumBondMethod::break_bonds(Body& body, const Clock& clock, ThreadTeam& team) {
+  const std::size_t before = body.events.size();
   fracture_.step(body, network_, stabilisation_, clock, team);
+  return body.events.size() > before;
 }
 
 bool ContinuumBondMethod::break_most_critical(Body& body, const Clock& clock, ThreadTeam& team,

@@ -27,7 +27,7 @@ class ContinuumBondMethod final : public Formulation {
   std::string static_obstacle(const Body& body) const override;
   void stiffness_bound(const Body& body, ThreadTeam& team, std::span<double> bound) override;
 
-  void break_bonds(Body& body, const Clock& clock, ThreadTeam& team) override;
+  bool break_bonds(Body& body, const Clock& clock, ThreadTeam& team) override;
   bool break_most_critical(Body& body, const Clock& clock, ThreadTeam& team,
                            Breaking which) override;
   void deform(Body& body, const Clock& clock, ThreadTeam& team) override;

@@ -26,7 +26,7 @@ class KernelMethod : public Formulation {
   void stiffness_bound(const Body& body, ThreadTeam& team, std::span<double> bound) override;
   std::string relaxation_obstacle(const Body& body) const override;
 
-  void break_bonds(Body&, const Clock&, ThreadTeam&) override {}
+  bool break_bonds(Body&, const Clock&, ThreadTeam&) override { return false; }
   bool break_most_critical(Body&, const Clock&, ThreadTeam&, Breaking) override { return true; }
   void deform(Body& body, const Clock& clock, ThreadTeam& team) override;
   void forces(Body& body, ThreadTeam& team) override;

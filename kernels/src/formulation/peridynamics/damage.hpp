@@ -35,18 +35,17 @@ class Damage {
   const std::uint64_t* bits() const { return bits_.data(); }
   std::int32_t status(std::int64_t bond) const { return status_[bond]; }
 
-  // Intact bonds whose severity(i, p) is beyond the limit and that may break, in the order of bonds. `flag`
-  // (n) tells the points with a candidate among the bonds to higher neighbours.
-  template <class F>
-  void find(const std::vector<char>& flag, const F& severity,
-            std::vector<std::int32_t>& found) const {
-    found.clear();
+  // found(i, half, severity) for the intact bonds whose severity(i, p) is beyond the limit and that may break,
+  // in the order of bonds. `flag` (n) tells the points with a candidate among the bonds to higher neighbours.
+  template <class F, class G>
+  void find(const std::vector<char>& flag, const F& severity, const G& found) const {
     for (std::int64_t i = 0; i < hood_->points; ++i) {
       if (flag[static_cast<std::size_t>(i)] == 0) continue;
       for (std::int32_t half = hood_->upper(i); half < hood_->last(i); ++half) {
         const std::int32_t p = hood_->neighbour(half);
         if (!bit(half) || !may_break(i, p)) continue;
-        if (severity(i, p) > limit(i, p)) found.push_back(hood_->bond_of_upper(i, half));
+        const double s = severity(i, p);
+        if (s > limit(i, p)) found(i, half, s);
       }
     }
   }

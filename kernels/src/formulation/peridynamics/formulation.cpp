@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 #include "core/instruction_set.hpp"
@@ -17,6 +18,9 @@ namespace {
 
 // Of the bound below 2/omega_max, which itself is safe by 1.4 and more.                 [PD step]
 constexpr double kSafety = 0.9;
+// A bond is left as it is while it would lose less than this share of its integrity: in statics, equilibrium
+// is not sought again for less.                                                     [VCPM softening]
+constexpr double kLeastLoss = 1e-4;
 // First size of the lists of one step; they grow beyond it only in a step that breaks more.
 constexpr std::size_t kReserve = 65536;
 // A fit of the deformation needs a moment matrix with this reciprocal condition number.
@@ -80,6 +84,7 @@ void Peridynamic::setup(Body& body, ThreadTeam&) {
   reference_.assign(4 * n, 0.0);
   now_.assign(4 * n, 0.0);
   left_.assign(n, 0.0);
+  moved_.assign(static_cast<std::size_t>(block_count(hood_.points)), 1);
   material_of_.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     material_of_[i] = body.region_of(static_cast<std::int64_t>(i));
@@ -102,8 +107,9 @@ void Peridynamic::setup(Body& body, ThreadTeam&) {
   flag_.assign(n, 0);
   place_.assign(n, -1);
   const std::size_t reserve = std::min(static_cast<std::size_t>(hood_.bonds()), kReserve);
-  for (auto* list : {&broken_, &touched_, &share_}) list->reserve(reserve);
-  release_.reserve(reserve);
+  weaker_.reserve(reserve);
+  touched_.reserve(reserve);
+  for (auto* list : {&share_, &release_}) list->reserve(reserve);
 }
 
 void Peridynamic::share_stencil(const Body& body) {
@@ -150,20 +156,37 @@ PairArrays Peridynamic::pair_arrays(Body& body) const {
   return a;
 }
 
+bool take_rows(const double* from, std::int64_t count, double* to) {
+  std::uint64_t changed = 0;
+  for (std::int64_t i = 0; i < count; ++i)
+    for (std::int64_t k = 0; k < 3; ++k) {
+      const double x = from[kVector * i + k];
+      changed |= std::bit_cast<std::uint64_t>(x) ^ std::bit_cast<std::uint64_t>(to[4 * i + k]);
+      to[4 * i + k] = x;
+    }
+  return changed != 0;
+}
+
 void Peridynamic::take_positions(const Body& body, ThreadTeam& team) {
   team_ = &team;
   expect_workers(team.size());
   if (stress_observed_) std::fill(body.point.p, body.point.p + kTensor * hood_.points, 0.0);
   gradient_observed_ = stress_observed_ = false;
-  for_blocks(team, hood_.points, [&](std::int64_t, std::int64_t first, std::int64_t last) {
+  for_blocks(team, hood_.points, [&](std::int64_t block, std::int64_t first, std::int64_t last) {
     if (lattice_pairs_.active()) {
       lattice_pairs_.take(body.point.u, first, last);
       return;
     }
-    for (std::int64_t i = first; i < last; ++i)
-      for (std::int64_t k = 0; k < 3; ++k)
-        now_[static_cast<std::size_t>(4 * i + k)] = body.point.x[kVector * i + k];
+    const bool moved =
+        take_rows(body.point.x + kVector * first, last - first, now_.data() + 4 * first);
+    if (moved) moved_[static_cast<std::size_t>(block)] = 1;
   });
+}
+
+bool Peridynamic::take_moved() {
+  const bool moved = std::find(moved_.begin(), moved_.end(), 1) != moved_.end();
+  std::fill(moved_.begin(), moved_.end(), 0);
+  return moved;
 }
 
 void Peridynamic::deform(Body& body, const Clock&, ThreadTeam& team) { take_positions(body, team); }
@@ -182,25 +205,40 @@ void Peridynamic::stiffness_bound(const Body& body, ThreadTeam&, std::span<doubl
   }
 }
 
-void Peridynamic::break_bonds(Body& body, const Clock& clock, ThreadTeam& team) {
-  find_broken(body, team);
-  if (!broken_.empty()) break_found(body, clock, team);
+bool Peridynamic::break_bonds(Body& body, const Clock& clock, ThreadTeam& team) {
+  find_weaker(body, team);
+  if (!weaker_.empty()) weaken_found(body, clock, team);
+  return !weaker_.empty();
 }
 
 bool Peridynamic::break_most_critical(Body& body, const Clock& clock, ThreadTeam& team,
                                       Breaking which) {
   find_critical(body, team, critical_);
   keep_most_critical(critical_, which);
-  broken_.clear();
-  for (const CriticalBond& bond : critical_) broken_.push_back(bond.bond);
-  if (!broken_.empty()) break_found(body, clock, team);
+  std::erase_if(weaker_, [this](const Weaker& w) {
+    return std::none_of(critical_.begin(), critical_.end(),
+                        [&](const CriticalBond& bond) { return bond.bond == w.bond; });
+  });
+  if (!weaker_.empty()) weaken_found(body, clock, team);
   return true;
 }
 
+void Peridynamic::break_these(Body& body, const Clock& clock, ThreadTeam& team,
+                              std::span<const std::int32_t> bonds) {
+  weaker_.clear();
+  for (const std::int32_t bond : bonds) {
+    hood_.for_bonds(bond, bond + 1,
+                    [&](std::int32_t, std::int64_t, std::int32_t, std::int32_t half) {
+                      weaker_.push_back({bond, 0.0, integrity(half)});
+                    });
+  }
+  weaken_found(body, clock, team);
+}
+
 void Peridynamic::find_critical(Body& body, ThreadTeam& team, std::vector<CriticalBond>& found) {
-  find_broken(body, team);
+  find_weaker(body, team);
   found.clear();
-  for (const std::int32_t bond : broken_) found.push_back({bond, critical_ratio(body, bond)});
+  for (const Weaker& w : weaker_) found.push_back({w.bond, critical_ratio(body, w.bond)});
 }
 
 double Peridynamic::critical_ratio(const Body& body, std::int32_t bond) const {
@@ -211,14 +249,19 @@ double Peridynamic::critical_ratio(const Body& body, std::int32_t bond) const {
   return value;
 }
 
-// Sets broken_: the bonds that are beyond their limit.
-void Peridynamic::find_broken(Body& body, ThreadTeam& team) {
-  broken_.clear();
+// Sets weaker_: the bonds that are beyond their limit and keep less than they have.
+void Peridynamic::find_weaker(Body& body, ThreadTeam& team) {
+  weaker_.clear();
   if (!damage_.active()) return;
   take_positions(body, team);
   flag_points(body, team, flag_);
   damage_.find(
-      flag_, [&](std::int64_t i, std::int64_t p) { return severity(body, i, p); }, broken_);
+      flag_, [&](std::int64_t i, std::int64_t p) { return severity(body, i, p); },
+      [&](std::int64_t i, std::int32_t half, double s) {
+        const double now = integrity(half), kept = kept_integrity(s);
+        if (kept <= (1 - kLeastLoss) * now)
+          weaker_.push_back({hood_.bond_of_upper(i, half), kept, now - kept});
+      });
 }
 
 void Peridynamic::act_by_pairs(Body& body, ThreadTeam& team) {
@@ -255,11 +298,12 @@ std::vector<double> Peridynamic::limits(const Body& body) {
   return critical_stretches(body, materials_, reach());
 }
 
-void Peridynamic::break_found(Body& body, const Clock& clock, ThreadTeam& team) {
+// Sets touched_: the ends of the bonds of weaker_, and their shares.
+void Peridynamic::touch_ends() {
   touched_.clear();
   share_.clear();
-  for (const std::int32_t bond : broken_) {
-    hood_.for_bonds(bond, bond + 1,
+  for (const Weaker& w : weaker_) {
+    hood_.for_bonds(w.bond, w.bond + 1,
                     [&](std::int32_t, std::int64_t i, std::int32_t p, std::int32_t) {
                       for (const std::int64_t end : {i, static_cast<std::int64_t>(p)}) {
                         std::int32_t& at = place_[static_cast<std::size_t>(end)];
@@ -268,25 +312,32 @@ void Peridynamic::break_found(Body& body, const Clock& clock, ThreadTeam& team) 
                           touched_.push_back(static_cast<std::int32_t>(end));
                           share_.push_back(0);
                         }
-                        ++share_[static_cast<std::size_t>(at)];
+                        share_[static_cast<std::size_t>(at)] += w.lost;
                       }
                     });
   }
+}
+
+// Weakens or breaks the bonds of weaker_.
+void Peridynamic::weaken_found(Body& body, const Clock& clock, ThreadTeam& team) {
+  touch_ends();
   release_.assign(touched_.size(), 0.0);
   release(body, clock, team, +1);
-  for (const std::int32_t bond : broken_) {
-    damage_.mark(bond, kBroken);
-    broke(bond);
+  for (const Weaker& w : weaker_) {
+    weaken(w.bond, w.kept);
+    if (w.kept > 0) continue;
+    damage_.mark(w.bond, kBroken);
+    broke(w.bond);
   }
   for (const std::int32_t i : touched_) rewire(i);
   release(body, clock, team, -1);
   for (const double e : release_) body.point.ledger[ledger::kFracture] += e;
-  record_events(body, clock);
+  record(body, clock);
   for (const std::int32_t i : touched_) place_[static_cast<std::size_t>(i)] = -1;
 }
 
 // The energy that a point has before and no longer has after, at the new positions, without the work that
-// the trapezoid of the force after the breaking books already.
+// the trapezoid of the force after the weakening books already.
 void Peridynamic::release(Body& body, const Clock& clock, ThreadTeam& team, double sign) {
   team.for_blocks(static_cast<std::int64_t>(touched_.size()), [&](std::int64_t k, int worker) {
     const auto at = static_cast<std::size_t>(k);
@@ -295,15 +346,18 @@ void Peridynamic::release(Body& body, const Clock& clock, ThreadTeam& team, doub
   });
 }
 
-// What a point releases goes to its broken bonds in equal parts, so the sum over bonds is the ledger's.
-void Peridynamic::record_events(Body& body, const Clock& clock) {
-  const auto part_of = [&](std::int64_t end) {
-    const auto at = static_cast<std::size_t>(place_[static_cast<std::size_t>(end)]);
-    return release_[at] / share_[at];
-  };
-  for (const std::int32_t bond : broken_) {
-    hood_.for_bonds(bond, bond + 1,
+// What a point releases goes to its weakened bonds by what they lose, so the sum over bonds is the ledger's. A
+// bond that breaks makes an event.
+void Peridynamic::record(Body& body, const Clock& clock) {
+  for (const Weaker& w : weaker_) {
+    const auto part_of = [&](std::int64_t end) {
+      const auto at = static_cast<std::size_t>(place_[static_cast<std::size_t>(end)]);
+      return release_[at] * w.lost / share_[at];
+    };
+    hood_.for_bonds(w.bond, w.bond + 1,
                     [&](std::int32_t, std::int64_t i, std::int32_t p, std::int32_t) {
+                      const double released = add_released(w.bond, part_of(i) + part_of(p));
+                      if (w.kept > 0) return;
                       cleave_event e{};
                       e.size = sizeof(cleave_event);
                       e.step = clock.step;
@@ -313,8 +367,8 @@ void Peridynamic::record_events(Body& body, const Clock& clock) {
                       for (int k = 0; k < 3; ++k)
                         e.midpoint[k] = 0.5 * (hood_.X[kVector * i + k] + hood_.X[kVector * p + k]);
                       e.criterion = severity(body, i, p);
-                      e.limit = damage_.limit(i, p);
-                      e.released = part_of(i) + part_of(p);
+                      e.limit = breaking_limit(i, p);
+                      e.released = released;
                       body.events.push_back(e);
                     });
   }

@@ -25,6 +25,9 @@ struct PointEnergy {
   double energy = 0, rate = 0;
 };
 
+// Copies vectors to the first three of four numbers each; whether a bit changed.
+bool take_rows(const double* from, std::int64_t count, double* to);
+
 class Peridynamic : public Formulation {
  public:
   bool takes_volumes() const override { return true; }
@@ -37,7 +40,7 @@ class Peridynamic : public Formulation {
   // The bound of the stable step for every point that has a bond left; with several materials, each point's own.
   void stiffness_bound(const Body& body, ThreadTeam& team, std::span<double> bound) override;
 
-  void break_bonds(Body& body, const Clock& clock, ThreadTeam& team) override;
+  bool break_bonds(Body& body, const Clock& clock, ThreadTeam& team) override;
   bool break_most_critical(Body& body, const Clock& clock, ThreadTeam& team,
                            Breaking which) override;
   void find_critical(Body& body, ThreadTeam& team, std::vector<CriticalBond>& found) override;
@@ -77,6 +80,16 @@ class Peridynamic : public Formulation {
   virtual double ratio(double severity, double limit) const { return severity / limit; }
   // A bond broke by its limit or with a loose end.
   virtual void broke(std::int32_t) {}
+  // Share of its stiffness that an intact bond has, and that it keeps beyond the limit; 0: it breaks.
+  virtual double integrity(std::int32_t) const { return 1; }
+  virtual double kept_integrity(double) const { return 0; }
+  virtual void weaken(std::int32_t, double) {}
+  // Severity at which the bond is broken.
+  virtual double breaking_limit(std::int64_t i, std::int64_t p) const {
+    return damage_.limit(i, p);
+  }
+  // A bond releases energy [J]; returns all that it has released.
+  virtual double add_released(std::int32_t, double energy) { return energy; }
   // Sets the internal force of all points and their energy per volume.
   virtual void act(Body& body, ThreadTeam& team) = 0;
   // worker: tells apart who asks at the same time.
@@ -99,6 +112,8 @@ class Peridynamic : public Formulation {
   // After that: sets the internal force and the energy per volume from these, on a lattice for eight points at a
   // time, unless stencil forbids it.
   void act_by_pairs(Body& body, ThreadTeam& team);
+  // Whether the positions in now_ are others than when this was asked before.
+  bool take_moved();
   PairArrays pair_arrays(Body& body) const;
   const PairKernels& kernels() const;
   // 2 sum_j w_ij / L_ij / m_i; weight(i, p)
@@ -127,10 +142,10 @@ class Peridynamic : public Formulation {
   const Elastic& elastic(std::int64_t i) const {
     return materials_[static_cast<std::size_t>(material_of_[static_cast<std::size_t>(i)])];
   }
-  // Breaks the bonds of broken_ [ascending], and sets touched_.
-  void break_found(Body& body, const Clock& clock, ThreadTeam& team);
-  std::vector<std::int32_t> broken_;   // bonds of the step being done
-  std::vector<std::int32_t> touched_;  // their ends, each once
+  // Breaks bonds as if they had failed, and sets touched_.
+  void break_these(Body& body, const Clock& clock, ThreadTeam& team,
+                   std::span<const std::int32_t> bonds);
+  std::vector<std::int32_t> touched_;  // ends of the bonds that broke or weakened last, each once
   Reach reach() const { return {dimension_, hood_.horizon, hood_.section}; }
   int dimension_ = 3;  // 1: a bar
   bool use_lattice_ = true;
@@ -144,20 +159,28 @@ class Peridynamic : public Formulation {
   void rewire(std::int64_t i);
   void refuse_groups(const Body& body) const;
   void take_positions(const Body& body, ThreadTeam& team);
-  void find_broken(Body& body, ThreadTeam& team);
+  struct Weaker {  // a bond that carries less from now on
+    std::int32_t bond;
+    double kept, lost;  // integrity
+  };
+  void find_weaker(Body& body, ThreadTeam& team);
+  void touch_ends();
+  void weaken_found(Body& body, const Clock& clock, ThreadTeam& team);
   void release(Body& body, const Clock& clock, ThreadTeam& team, double sign);
-  void record_events(Body& body, const Clock& clock);
+  void record(Body& body, const Clock& clock);
   Mat<3> fitted_gradient(const Body& body, std::int64_t i) const;
 
   std::optional<PairForm> pair_form_;
   const double* alpha_of_pairs_ = nullptr;
   LatticePairs lattice_pairs_;  // active: instead of the kernels for any cloud
   double stable_step_ = 0;
+  std::vector<char> moved_;    // by block of points: now_ has changed
   std::vector<double> rates_;  // (n) several materials, else of the stiffest point alone
   std::vector<char> flag_;     // (n) a bond may be beyond its limit
   std::vector<CriticalBond> critical_;
+  std::vector<Weaker> weaker_;       // bonds of the step being done
   std::vector<std::int32_t> place_;  // (n) in touched_, or -1
-  std::vector<std::int32_t> share_;  // broken bonds of a touched point
+  std::vector<double> share_;        // what the bonds of a touched point lose of their integrity
   std::vector<double> release_;      // of a touched point
   ThreadTeam* team_ = nullptr;       // of the model, for what is asked between steps
   bool gradient_observed_ = false, stress_observed_ = false;

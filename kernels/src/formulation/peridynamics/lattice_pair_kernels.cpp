@@ -14,47 +14,52 @@ constexpr int kSum = static_cast<int>(PairForm::sum);
 constexpr int kSeries = static_cast<int>(PairForm::series);
 constexpr int kMean = static_cast<int>(PairForm::mean);
 
-// Below, 1 + e is formed from the length itself: e has lost digits.
+// Below, 1 + e and l^2 are formed from the present vector itself: e has lost digits.
 constexpr double kShort = 0.25;
 // In place of no length at all: then g (D + u) is zero and g^2 (1 + e) is one.
 constexpr double kNoLength = 1e-300;
 
 template <int D>
 struct Stretch {
-  Lanes d[D], e, square;  // D + u; (l/L)^2 - 1, (l/L)^2
+  Lanes d[D], e, length;  // D + u; (l^2 - L^2)/L^2; l^2
   CLEAVE_INLINE void measure(const PairStep& step, const Lanes (&u)[D], const PairRows& a,
                              std::int64_t other) {
-    Lanes change(0.0);
+    Lanes change;
     for (int k = 0; k < D; ++k) {
       const Lanes moved = load_lanes8(a.u[k] + other) - u[k];
       d[k] = moved + step.D[k];
-      change = change + moved * (d[k] + step.D[k]);
+      const Lanes part = moved * (d[k] + step.D[k]);
+      change = k == 0 ? part : change + part;
     }
     e = change * step.inverse_square;
-    square = 1.0 + e;
+    length = change + step.square;
   }
-  CLEAVE_INLINE void measure_short_ones(const PairStep& step) {
+  // g for every e; corrects the length of short bonds.
+  CLEAVE_INLINE Lanes exact_change(const PairStep& step) {
+    Lanes square = 1.0 + e;
     const Mask<kWide> close = square < kShort;
-    if (!any(close)) return;
-    Lanes length(0.0);
-    for (int k = 0; k < D; ++k) length = length + d[k] * d[k];
-    square = select(close, larger(length * step.inverse_square, Lanes(kNoLength)), square);
+    if (any(close)) {
+      Lanes own = d[0] * d[0];
+      for (int k = 1; k < D; ++k) own = own + d[k] * d[k];
+      length = select(close, larger(own, Lanes(kNoLength)), length);
+      square = select(close, length * step.inverse_square, square);
+    }
+    return e / (square + square_root(square));
   }
 };
 
 CLEAVE_INLINE void add(const Lanes& a, double* to) { store_lanes8(load_lanes8(to) + a, to); }
 CLEAVE_INLINE void subtract(const Lanes& a, double* to) { store_lanes8(load_lanes8(to) - a, to); }
 
-// Up to this |e|, that is a stretch of 1.5 %, g is a polynomial.
-constexpr double kSmall = 0x1p-5;
-// e times that of degree 8 through 1/(1 + e + sqrt(1 + e)) at its Chebyshev points: within 4e-17 of it.
-CLEAVE_INLINE Lanes small_change(const Lanes& e) {
-  const Lanes e2 = e * e, e4 = e2 * e2;
+// Up to |e| = 1/32, that is a stretch of 1.5 %, g is a polynomial: e times that of degree 8 through
+// 1/(1 + e + sqrt(1 + e)) at its Chebyshev points, within 4e-17 of it.
+constexpr double kSmall = 0x1p-10;  // e^2
+CLEAVE_INLINE Lanes small_change(const Lanes& e, const Lanes& e2) {
   const Lanes a = 0.5 + e * -0.37499999999999434;
   const Lanes b = 0.3124999999999946 + e * -0.2734375000770698;
   const Lanes c = 0.24609375007356768 + e * -0.22558565344138345;
   const Lanes d = 0.20947238509963742 + e * -0.1967682863372609;
-  return e * ((a + b * e2) + e4 * ((c + d * e2) + e4 * 0.18584063437886522));
+  return e * ((a + b * e2) + (e2 * e2) * ((c + d * e2) + (e2 * e2) * 0.18584063437886522));
 }
 
 // Sums of the eight points, and how a bond adds to them and to its other end.
@@ -79,7 +84,7 @@ struct Eight {
     if constexpr (kForm == kSum) pull = pull * (own + there);
     if constexpr (kForm == kSeries) pull = pull / (alpha + load_lanes8(a.alpha + other));
     if constexpr (kForm == kMean) pull = pull * (alpha + load_lanes8(a.alpha + other));
-    const Lanes stored = pull * (g * s.square) * step.square;
+    const Lanes stored = (pull * g) * s.length;
     if constexpr (kForm == kAlike || kForm == kSum) {
       for (int k = 0; k < D; ++k) {
         const Lanes force = pull * s.d[k];
@@ -104,8 +109,8 @@ struct Eight {
   }
 };
 
-// The bonds of several steps at a time, which do not wait for each other: two are 10 % faster than one, three and four
-// slower again. A square root and a division for all of them would cost 5 % more.
+// The bonds of several steps at a time, which do not wait for each other. Measured: two are 10 % faster than one, and
+// than two with roots that share a division; three and four are slower again.
 template <int kCount, bool kWhole, int kForm, int D>
 CLEAVE_INLINE void add_bonds(Eight<kForm, D>& eight, const std::int32_t* list,
                              const std::uint8_t* carries) {
@@ -121,14 +126,14 @@ CLEAVE_INLINE void add_bonds(Eight<kForm, D>& eight, const std::int32_t* list,
   for (int n = 0; n < kCount; ++n) {
     const PairStep& step = eight.a.steps[list[n]];
     s[n].measure(step, eight.u, eight.a, eight.at + step.distance);
-    large[n] = absolute(s[n].e) > kSmall;
+    const Lanes square = s[n].e * s[n].e;
+    large[n] = square > kSmall;
     some_large = n == 0 ? large[0] : some_large | large[n];
+    g[n] = small_change(s[n].e, square);
   }
-  for (int n = 0; n < kCount; ++n) g[n] = small_change(s[n].e);
   if (any(some_large)) {
     for (int n = 0; n < kCount; ++n) {
-      s[n].measure_short_ones(eight.a.steps[list[n]]);
-      g[n] = select(large[n], s[n].e / (s[n].square + square_root(s[n].square)), g[n]);
+      g[n] = select(large[n], s[n].exact_change(eight.a.steps[list[n]]), g[n]);
     }
   }
   for (int n = 0; n < kCount; ++n) {
@@ -178,7 +183,7 @@ void stretched(const PairRows& arrays, const PairRow& given) {
       const std::int64_t other = at + step.distance;
       Stretch<D> s;
       s.measure(step, u, a, other);
-      const Mask<kWide> far = s.square > reach;
+      const Mask<kWide> far = s.e > reach;
       if (!any(far)) continue;
       const Lanes found = select(far, lanes_of(carries[which]), Lanes(0.0));
       add(found, a.e + at);

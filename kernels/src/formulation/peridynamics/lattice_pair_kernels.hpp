@@ -32,7 +32,7 @@ struct PairRows {
   const double* u[3];  // [spacings]
   const double* right;
   const double* alpha;  // forms series and mean only; > 0, without a point too
-  const double* reach;  // `stretched` only: largest (l/L)^2 of a bond that is not looked for
+  const double* reach;  // `stretched` only: largest e of a bond that is not looked for
   double *f[3],
       *e;  // added to: on the point, of its bonds: sum g/L (D + u), sum L g^2 (1 + e), weighed:
            // alike: not at all; product: by right of the other end; sum: by right_i + right_j;

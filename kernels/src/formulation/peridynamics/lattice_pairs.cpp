@@ -184,7 +184,7 @@ void LatticePairs::weigh(const Neighbourhood& hood, const PairWeights& weights,
     if (shared) values_[at + kAlpha * line] = weights.alpha[i];
     outer_[i] = weights.form == PairForm::sum ? 1.0 : weights.left[i] * (alike ? right[i] : 1.0);
     half_[i] = 0.25 * outer_[i] * spacing_ / hood.volume[i];
-    values_[at + kReach * line] = (1 + limit[i]) * (1 + limit[i]) * (1 - kMargin);
+    values_[at + kReach * line] = (1 + limit[i]) * (1 + limit[i]) * (1 - kMargin) - 1;
   }
 }
 

@@ -1,32 +1,12 @@
 // The loops that pair_kernels.hpp declares: eight neighbours fill the lanes of a register.
 #include "formulation/peridynamics/pair_kernels.hpp"
 
-#include "core/lane_memory.hpp"
-#include "formulation/peridynamics/bits.hpp"
+#include "formulation/peridynamics/pair_lanes.hpp"
 
 namespace cleave {
 
 namespace peridynamics {
 namespace {
-
-// Rows of eight neighbours; those beyond the end repeat the last.
-struct Eight {
-  std::int32_t point[kWide];
-  CLEAVE_INLINE Eight(const PairArrays& a, std::int32_t b, std::int32_t last) {
-    for (int l = 0; l < kWide; ++l) point[l] = a.neighbour[b + l < last ? b + l : last - 1];
-  }
-  CLEAVE_INLINE void rows(const double* from, Lanes (&c)[4]) const {
-    alignas(64) double row[kWide][4];
-    for (int l = 0; l < kWide; ++l)
-      std::memcpy(row[l], from + 4 * static_cast<std::int64_t>(point[l]), sizeof row[l]);
-    load_components<4>(&row[0][0], 4, c);
-  }
-  CLEAVE_INLINE Lanes scalars(const double* from) const {
-    alignas(64) double value[kWide];
-    for (int l = 0; l < kWide; ++l) value[l] = from[point[l]];
-    return load_lanes8(value);
-  }
-};
 
 struct Bond {
   Lanes d[3];     // x_ij
@@ -56,14 +36,6 @@ CLEAVE_INLINE Bond bond_of(const PairArrays& a, const Eight& eight, std::int64_t
   return r;
 }
 
-CLEAVE_INLINE unsigned carrying(const PairArrays& a, std::int32_t b, std::int32_t last) {
-  return eight_bits(a.intact, b) & lower_bits(last - b);
-}
-
-CLEAVE_INLINE void put(const Lanes (&f)[3], double* force, std::int64_t i) {
-  for (int k = 0; k < 3; ++k) force[3 * i + k] = sum_of(f[k]);
-}
-
 template <PairForm kForm>
 CLEAVE_INLINE Lanes weight_of(const PairArrays& a, const Eight& eight, const Lanes& right,
                               std::int64_t i) {
@@ -81,9 +53,9 @@ void pair_force(const PairArrays& arrays, std::int64_t first, std::int64_t last)
     Lanes f[3] = {Lanes(0.0), Lanes(0.0), Lanes(0.0)}, energy(0.0);
     const std::int32_t end = a.row_begin[i + 1];
     for (std::int32_t b = a.row_begin[i]; b < end; b += kWide) {
-      const unsigned byte = carrying(a, b, end);
+      const unsigned byte = carrying(a.intact, b, end);
       if (byte == 0) continue;
-      const Eight eight(a, b, end);
+      const Eight eight(a.neighbour, b, end);
       const Bond r = bond_of(a, eight, i);
       const Lanes weight = weight_of<kForm>(a, eight, r.fourth, i);
       const Lanes change = r.l - r.L, pull = lanes_of(byte) * weight * (change / r.L);
@@ -91,7 +63,7 @@ void pair_force(const PairArrays& arrays, std::int64_t first, std::int64_t last)
       energy = energy + pull * change;
       for (int k = 0; k < 3; ++k) f[k] = f[k] + scale * r.d[k];
     }
-    put(f, a.force, i);
+    store_sums(f, a.force, i);
     a.energy[i] = 0.25 * sum_of(energy) / a.reference[4 * i + 3];
   }
 }
@@ -108,9 +80,9 @@ void extension(const PairArrays& arrays, std::int64_t first, std::int64_t last) 
     Lanes sum(0.0), square(0.0);
     const std::int32_t end = a.row_begin[i + 1];
     for (std::int32_t b = a.row_begin[i]; b < end; b += kWide) {
-      const unsigned byte = carrying(a, b, end);
+      const unsigned byte = carrying(a.intact, b, end);
       if (byte == 0) continue;
-      const Bond r = bond_of(a, Eight(a, b, end), i);
+      const Bond r = bond_of(a, Eight(a.neighbour, b, end), i);
       const Lanes change = r.l - r.L;
       const Lanes weighed = lanes_of(byte) * influence(a, r.L) * r.volume * change;
       sum = sum + weighed * r.L;
@@ -127,9 +99,9 @@ void state_force(const PairArrays& arrays, std::int64_t first, std::int64_t last
     Lanes f[3] = {Lanes(0.0), Lanes(0.0), Lanes(0.0)};
     const std::int32_t end = a.row_begin[i + 1];
     for (std::int32_t b = a.row_begin[i]; b < end; b += kWide) {
-      const unsigned byte = carrying(a, b, end);
+      const unsigned byte = carrying(a.intact, b, end);
       if (byte == 0) continue;
-      const Eight eight(a, b, end);
+      const Eight eight(a.neighbour, b, end);
       const Bond r = bond_of(a, eight, i);
       const Lanes alpha = a.alpha[i] + eight.scalars(a.alpha);
       const Lanes spread = a.spread[i] + eight.scalars(a.spread);
@@ -137,7 +109,7 @@ void state_force(const PairArrays& arrays, std::int64_t first, std::int64_t last
                           (alpha * (r.l - r.L) + spread * r.L) * r.inverse;
       for (int k = 0; k < 3; ++k) f[k] = f[k] + scale * r.d[k];
     }
-    put(f, a.force, i);
+    store_sums(f, a.force, i);
   }
 }
 
@@ -151,7 +123,7 @@ void stretched(const PairArrays& arrays, std::int64_t first, std::int64_t last, 
     const double most = (1 + limit[i]) * (1 - 1e-12), square = most * most;
     bool found = false;
     for (std::int32_t b = upper; b < end; b += kWide) {
-      const Eight eight(a, b, end);
+      const Eight eight(a.neighbour, b, end);
       Lanes x[4], X[4];
       eight.rows(a.now, x);
       eight.rows(a.reference, X);

@@ -43,8 +43,10 @@ inline constexpr std::array kPeridynamicsParameters = {
                    "critical stretch of bonds between two materials; 0: the smaller of the two",
                    "[PD interface]"),
     choice_parameter("stencil", "lattice|never", "lattice",
-                     "lattice: points on a lattice share one list of interactions, never: they are "
-                     "treated as any cloud; same forces but for rounding"),
+                     "bond_pd and cpd; lattice: points within 1e-6 spacings of a square or cubic "
+                     "lattice share one list of interactions, which is faster, never: they are "
+                     "treated as any cloud; same forces but for rounding",
+                     "[PD lattice]"),
 };
 
 inline constexpr std::array kCpdParameters = {

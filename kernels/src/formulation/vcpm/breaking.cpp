@@ -44,14 +44,14 @@ void VolumeCompensatedParticles::for_carried(std::int64_t i, std::int64_t broken
     const std::int32_t p = hood_.neighbour(half);
     const std::int32_t bond =
         p > i ? hood_.bond_of_upper(i, half) : hood_.bond_of_upper(p, hood_.find_half(p, i));
-    if (carried(bond, broken)) f(p);
+    if (carried(bond, broken)) f(p, half);
   }
 }
 
 bool VolumeCompensatedParticles::held_after(const Body&, std::int64_t broken,
                                             std::int64_t i) const {
   bool held = false;
-  for_carried(i, broken, [&](std::int32_t) { held = true; });
+  for_carried(i, broken, [&](std::int32_t, std::int32_t) { held = true; });
   return held;
 }
 
@@ -61,8 +61,8 @@ StiffnessChange::Column VolumeCompensatedParticles::volume_column(const Body& bo
   StiffnessChange::Column column;
   column.particles.push_back(static_cast<std::int32_t>(i));
   column.values.assign(static_cast<std::size_t>(dimension_), 0.0);
-  for_carried(i, broken, [&](std::int32_t p) {
-    const Bond b = bond(body, i, p);
+  for_carried(i, broken, [&](std::int32_t p, std::int32_t half) {
+    const Bond b = bond(body, i, p, half);
     const double share = 0.5 * factor_[at(i)] * b.shell->weight;
     column.particles.push_back(p);
     for (int k = 0; k < dimension_; ++k) {
@@ -81,8 +81,8 @@ void VolumeCompensatedParticles::stiffness_change(const Body& body, std::int64_t
   const double scale = lattice_.cell * modulus_;
   hood_.for_bonds(
       order_[at(event - 1)], order_[at(event - 1)] + 1,
-      [&](std::int32_t, std::int64_t i, std::int32_t p, std::int32_t) {
-        const Bond b = bond(body, i, p);
+      [&](std::int32_t, std::int64_t i, std::int32_t p, std::int32_t half) {
+        const Bond b = bond(body, i, p, half);
         StiffnessChange::Column elongation{{static_cast<std::int32_t>(i), p}, {}};
         for (const double sign : {-1.0, 1.0})
           for (int k = 0; k < dimension_; ++k) elongation.values.push_back(sign * b.direction[k]);
@@ -118,8 +118,8 @@ bool VolumeCompensatedParticles::is_loose(const Body& body, std::int64_t i) cons
   Mat<3> held;
   for (const auto& dof : body.prescribed)
     if (dof.particle == i) held(dof.direction, dof.direction) += 1;
-  for_carrying(i, [&](std::int32_t p, std::int32_t) {
-    const Bond b = bond(body, i, p);
+  for_carrying(i, [&](std::int32_t p, std::int32_t half) {
+    const Bond b = bond(body, i, p, half);
     add_dyad(held, b.direction, b.direction);
   });
   if (dimension_ == 2) held(2, 2) = 1;
@@ -129,18 +129,18 @@ bool VolumeCompensatedParticles::is_loose(const Body& body, std::int64_t i) cons
 
 // A bond that goes with its particle is below its limit.                              [VCPM loose]
 void VolumeCompensatedParticles::release_loose(Body& body, const Clock& clock, ThreadTeam& team) {
-  std::vector<std::int32_t> ends = touched_;
+  std::vector<std::int32_t> ends = touched_, bonds;
   while (!ends.empty()) {
     const std::int32_t i = ends.back();
     ends.pop_back();
     if (damage_.intact_count(i) == 0 || !is_loose(body, i)) continue;
-    broken_.clear();
-    for_carried(i, broken_bonds(), [&](std::int32_t p) {
+    bonds.clear();
+    for_carrying(i, [&](std::int32_t p, std::int32_t) {
       const std::int64_t a = std::min<std::int64_t>(i, p), b = std::max<std::int64_t>(i, p);
-      broken_.push_back(hood_.bond_of_upper(a, hood_.find_half(a, b)));
+      bonds.push_back(hood_.bond_of_upper(a, hood_.find_half(a, b)));
       ends.push_back(p);
     });
-    break_found(body, clock, team);
+    break_these(body, clock, team, bonds);
   }
 }
 

@@ -11,6 +11,7 @@ enum class LatticeChoice { found, triangular, sc, fcc, bcc };
 enum class Geometry { finite, linear };
 enum class Surface { keep, extend };
 enum class Criterion { force, strain, energy };
+enum class SofteningLaw { none, linear, bilinear, exponential };
 
 inline constexpr std::array kVcpmParameters = {
     choice_parameter("lattice", "found|triangular|sc|fcc|bcc", "found",
@@ -40,6 +41,23 @@ inline constexpr std::array kVcpmParameters = {
                    "metre of thickness; 0: from strength or from group fracture, or bonds do not "
                    "break",
                    "[VCPM strength]"),
+    choice_parameter("softening", "none|linear|bilinear|exponential", "none",
+                     "how a bond gives way beyond the strain of its limit, criterion 'strain'; "
+                     "none: at once",
+                     "[VCPM softening]"),
+    real_parameter("final_strain", "1", kNotNegative, 0.0,
+                   "strain of a bond that carries nothing any more; exponential: where a linear "
+                   "law of the same energy ends; 0: from softening_energy",
+                   "[VCPM softening]"),
+    real_parameter("kink_strain", "1", kNotNegative, 0.0, "bilinear: strain between the two lines",
+                   "[VCPM softening]"),
+    real_parameter("kink_force", "1", kNotNegative, 0.0,
+                   "bilinear: force there over the largest force, > 0 and <= 1",
+                   "[VCPM softening]"),
+    real_parameter("softening_energy", "J m-2", kNotNegative, 0.0,
+                   "instead of final_strain, triangular lattice: energy that the springs take for "
+                   "a unit area of crack along a close-packed row",
+                   "[VCPM toughness]"),
 };
 
 }  // namespace cleave::vcpm

@@ -26,13 +26,14 @@ void VolumeCompensatedParticles::add_parts(const Body& body, const Carries& carr
     for (auto half = hood_.first(i); half < hood_.last(i); ++half) {
       if (!carries(half)) continue;
       const std::int32_t p = hood_.neighbour(half);
-      const Bond b = bond(body, i, p);
-      const double share = 0.5 * factor_[static_cast<std::size_t>(i)] * b.shell->weight;
+      const Bond b = bond(body, i, p, half);
+      const double share =
+          b.integrity * 0.5 * factor_[static_cast<std::size_t>(i)] * b.shell->weight;
       for (int k = 0; k < D; ++k) slope[static_cast<std::size_t>(k)] -= share * b.direction[k];
       for (int k = 0; k < D; ++k) slope.push_back(share * b.direction[k]);
       particles.push_back(p);
       if (p < i) continue;
-      const double stiff = 0.5 * b.shell->stiffness;
+      const double stiff = b.integrity * 0.5 * b.shell->stiffness;
       const double length = hood_.length(i, p) + b.elongation;
       const double turn =
           geometry_ == Geometry::finite && length > 0 ? force(b, i, p) / length : 0.0;

@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "formulation/peridynamics/formulation.hpp"
+#include "formulation/vcpm/cell_kernels.hpp"
 #include "formulation/vcpm/lattice.hpp"
+#include "formulation/vcpm/softening.hpp"
 
 namespace cleave::vcpm {
 
@@ -18,7 +20,9 @@ class VolumeCompensatedParticles final : public peridynamics::Peridynamic {
   bool has_stiffness() const override { return true; }
   void add_stiffness(const Body& body, StiffnessSink& sink) const override;
   std::string static_obstacle(const Body&) const override { return {}; }
-  bool constant_stiffness() const override { return geometry_ == Geometry::linear; }
+  bool constant_stiffness() const override {
+    return geometry_ == Geometry::linear && !softening_.active();
+  }
   std::int64_t broken_bonds() const override { return std::ssize(order_); }
   void add_stiffness_after(const Body& body, std::int64_t broken,
                            StiffnessSink& sink) const override;
@@ -27,6 +31,7 @@ class VolumeCompensatedParticles final : public peridynamics::Peridynamic {
                         StiffnessChange& change) const override;
   void release_loose(Body& body, const Clock& clock, ThreadTeam& team) override;
   bool holds(const Body& body, std::int64_t i) const override;
+  std::string one_bond_obstacle(const Body& body) const override;
   bool derive(const Body& body, std::string_view field, std::int64_t first, std::int64_t last,
               double* values) const override;
   std::int64_t bytes() const override;
@@ -38,6 +43,12 @@ class VolumeCompensatedParticles final : public peridynamics::Peridynamic {
   void find_rates(const Body& body, std::span<double> rates) const override;
   void flag_points(Body& body, ThreadTeam& team, std::vector<char>& flag) override;
   double severity(const Body& body, std::int64_t i, std::int64_t p) const override;
+  void reconnect(std::int64_t i) override;
+  double integrity(std::int32_t half) const override;
+  double kept_integrity(double strain) const override;
+  void weaken(std::int32_t bond, double kept) override;
+  double breaking_limit(std::int64_t i, std::int64_t p) const override;
+  double add_released(std::int32_t bond, double energy) override;
   void act(Body& body, ThreadTeam& team) override;
   peridynamics::PointEnergy point_energy(const Body& body, std::int64_t i,
                                          int worker) const override;
@@ -50,18 +61,23 @@ class VolumeCompensatedParticles final : public peridynamics::Peridynamic {
     double elongation = 0;  // dL [m]
     Vec<3> direction;       // from i to p; zero where the ends coincide
     const Shell* shell = nullptr;
+    double integrity = 1;  // g
   };
-  Bond bond(const Body& body, std::int64_t i, std::int64_t p) const;
-  // sum_p w_ip dL_ip/2 over the bonds that carry, times the factor of the surface      [VCPM bond]
+  Bond bond(const Body& body, std::int64_t i, std::int64_t p) const;  // as if it were intact
+  Bond bond(const Body& body, std::int64_t i, std::int64_t p, std::int32_t half) const;
+  // sum_p g w_ip dL_ip/2 over the bonds that carry, times the factor of the surface    [VCPM bond]
   double dilatation(const Body& body, std::int64_t i) const;
   // V T/2 theta_i times the factor of the surface: what a bond takes from its end i, over w
   double pressure(std::int64_t i, double dilatation) const;
-  void find_pressures(const Body& body, ThreadTeam& team);
+  CellArrays cell_arrays();
+  bool take_shifts(const Body& body, ThreadTeam& team);
+  void respond(const Body& body, ThreadTeam& team);
+  void respond_again(const CellArrays& arrays);
   double force(const Bond& b, std::int64_t i, std::int64_t p) const;  // F_ip [N]       [VCPM 13]
   void check_bonds(const Body& body) const;
   void number_broken();
   bool carried(std::int32_t bond, std::int64_t broken) const;
-  // f(neighbour) for the bonds of i that carried when so many had broken.
+  // f(neighbour, half) for the bonds of i that carried when so many had broken.
   template <class F>
   void for_carried(std::int64_t i, std::int64_t broken, const F& f) const;
   template <class Carries>
@@ -69,6 +85,7 @@ class VolumeCompensatedParticles final : public peridynamics::Peridynamic {
   StiffnessChange::Column volume_column(const Body& body, std::int64_t i,
                                         std::int64_t broken) const;
   bool is_loose(const Body& body, std::int64_t i) const;
+  double bond_limit(const Body& body);
 
   Lattice lattice_;
   Geometry geometry_ = Geometry::finite;
@@ -76,8 +93,19 @@ class VolumeCompensatedParticles final : public peridynamics::Peridynamic {
   double modulus_ = 0;               // T, in plane stress that of the plane [Pa]
   std::int32_t* event_ = nullptr;    // (bonds), the field
   std::vector<std::int32_t> order_;  // bonds in the order in which they broke
+  std::vector<double> length_;       // (half-bonds, and 7 more) [m]
+  AlignedReals shift_;               // (4,n) displacements, of geometry 'linear'
   std::vector<double> factor_;       // (n) of the surface
-  std::vector<double> pressure_;     // (n) of the present positions
+  // Of the positions and bonds that respond saw last.
+  std::vector<double> pressure_, force_, energy_;  // (n), (3,n), (n)
+  std::vector<char> critical_;                     // (n) a bond may be beyond its limit
+  bool responded_ = false;
+  std::vector<std::int32_t> stale_;  // particles that other bonds hold since then
+  std::vector<char> shifted_;        // by block of points: shift_ has changed
+  Softening softening_;
+  double *integrity_ = nullptr, *released_ = nullptr;  // (bonds) the fields
+  std::vector<double>
+      weight_;  // (half-bonds, and 7 more) g, 0 where broken; empty without softening
 };
 
 }  // namespace cleave::vcpm
