@@ -163,6 +163,7 @@ Vector KeptStiffness::pulled(const Vector& x) const {
 
 // q + V W V^T p
 void KeptStiffness::add_changes(const Vector& p, Vector& q) const {
+  if (columns_.empty()) return;
   const Vector share = weight_ * pulled(p);
   for (Eigen::Index c = 0; c < share.size(); ++c)
     for (const auto& [equation, value] : columns_[static_cast<std::size_t>(c)])

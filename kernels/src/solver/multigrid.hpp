@@ -38,7 +38,8 @@ class Multigrid {
   };
   Kind add_level(const SparseMatrix& k, Nodes& nodes);
   // What a pivot, or an entry on the diagonal, says about the next level.
-  Kind judge(double least, double largest, std::int64_t place);
+  Kind judge(const Vector& values, std::int64_t& place) const;
+  void name_weakest(std::int64_t unknown);
   Kind factorise_last();
   void smooth(Level& level, const Vector& b, Vector& x, bool from_zero);
   void cycle(std::size_t depth, const Vector& b, Vector& x);
