@@ -463,8 +463,8 @@ CLEAVE_API int32_t cleave_model_update(cleave_model* model);
  * rates play no part; prescribed degrees of freedom go where cleave_body_motion says. */
 enum cleave_solver {
   CLEAVE_SOLVER_DIRECT = 0,   /* the stiffness is factorised */
-  CLEAVE_SOLVER_ITERATIVE = 1 /* conjugate gradients, for a symmetric positive definite stiffness: less memory
-                                 and time in large bodies */
+  CLEAVE_SOLVER_ITERATIVE = 1 /* conjugate gradients, if it is symmetric positive definite: less
+                                 memory and time in large bodies */
 };
 enum cleave_breaking {
   CLEAVE_BREAKING_ALL = 1, /* every bond that fails in an equilibrium */
