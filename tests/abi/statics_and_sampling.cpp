@@ -221,7 +221,7 @@ TEST_F(StaticCall, RelaxationRefusesWhatIsOutOfRange) {
   refused("max_iterations 0");
   bad.slice = -1;
   refused("slice -1");
-  bad.breaking = 3;
+  bad.breaking = 4;
   refused("CLEAVE_BREAKING_ONE");
   bad.size = 8;
   cleave_relaxation_report report{};

@@ -97,6 +97,7 @@ void VolumeCompensatedParticles::prepare(Body& body) {
   const bool extend = options.choice("surface") == static_cast<int>(Surface::extend);
   event_ = body.fields.integer("bond_event");
   body.fields.integer("factored_bonds");
+  order_.reserve(at(hood_.bonds()));
   pressure_.assign(at(hood_.points), 0.0);
   force_.assign(at(kVector * hood_.points), 0.0);
   energy_.assign(at(hood_.points), 0.0);
