@@ -267,8 +267,8 @@ void Simulation::fail(Index step, const std::string& what) {
     events_.flush();
     history_.flush();
     good_.write(names_.last_good(), scene_, step_.clock);
-    text += "\nThe last good state, after step " + number(good_.step()) + ", is in " +
-            names_.last_good();
+    text += "\nThe last good state, after step " + number(good_.step()) + " at time " +
+            number(good_.time()) + ", is in " + names_.last_good();
   } catch (const std::exception& error) {
     text += "\nThe last good state could not be written: " + std::string(error.what());
   }

@@ -27,6 +27,7 @@ class Snapshot {
   // step: the last that is done; time: of the state, later than that step's within a static increment
   void take(const Scene& scene, std::int64_t step, double time, const Cursors& cursors);
   std::int64_t step() const { return step_; }
+  double time() const { return time_; }
   std::int64_t bytes() const;
   // Writes the checkpoint of this moment. Throws io::Error.
   void write(const std::string& path, const Scene& scene, const Clock& clock) const;

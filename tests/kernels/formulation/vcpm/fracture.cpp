@@ -241,7 +241,8 @@ TEST(VolumeCompensatedFracture, TiesKeepASymmetricBodySymmetric) {
 // A particle that hangs on one bond could turn about its neighbour: it loses that bond too.
 TEST(VolumeCompensatedFracture, LooseParticlesLoseTheirBonds) {
   Strip strip({});
-  strip.load(0.006);
+  strip.newton.breaking = CLEAVE_BREAKING_ALL;  // shatters it
+  strip.load(0.05);
   strip.break_all();
   std::int64_t count = 0, with_particles = 0;
   ok(cleave_body_event_count(strip.model, 0, &count));
@@ -257,7 +258,7 @@ TEST(VolumeCompensatedFracture, LooseParticlesLoseTheirBonds) {
     for (std::size_t k = 0; k < 2 && status[b] == 0; ++k)
       ++held[static_cast<std::size_t>(ends[2 * b + k])];
   EXPECT_EQ(std::count(held.begin(), held.end(), 1), 0);
-  EXPECT_EQ(with_particles > 0, std::count(held.begin(), held.end(), 0) > 0);
+  EXPECT_GT(with_particles, 0);
 }
 
 // A ball whose rim is stretched along x, around an island whose ties alone may break. With the last of them gone it
