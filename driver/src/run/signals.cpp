@@ -40,6 +40,7 @@ Signals::Signals() {
 
 Signals::~Signals() {
   for (std::size_t i = 0; i < former_.size(); ++i) {
+    if (stop_requested() && handlers[i].signal == SIGTERM) continue;
     sigaction(handlers[i].signal, &former_[i], nullptr);
   }
 }

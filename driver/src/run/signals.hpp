@@ -10,7 +10,8 @@ namespace cleave::driver {
 // While it lives: a second SIGINT has its usual effect, at once; any more SIGTERM is the same
 // request, as queues send it to every process of a job and again; a file that grows beyond the
 // size limit of the shell is an error of that file and not the end (SIGXFSZ). The former handlers
-// come back afterwards.
+// come back afterwards, but that of SIGTERM where a stop was asked for: one that comes between the
+// end of the run and that of the program changes no exit code.
 class Signals {
  public:
   Signals();
