@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace cleave {
 
@@ -34,12 +35,13 @@ void KeptStiffness::follow(Body& body, Solver solver, ThreadTeam& team) {
 }
 
 // Over a cycle of m corrections a solution costs F/m + b m/2 more than the factor's own, with F the operations to find it
-// and b those of one more correction: least at m = sqrt(2 F/b). And the columns shall not need more memory than the factor.
+// and b those of one more correction: least at m = sqrt(2 F/b). And the columns shall not need more memory than twice the factor.
 double KeptStiffness::worthwhile() const {
   if (solver_ == Solver::iterative) return kIterated;
   const auto n = static_cast<double>(std::max<std::int64_t>(equations_.count, 1));
   const double cycle = std::sqrt(2 * base_->operations() / (2 * n * kColumns));
-  return std::fmin(cycle, base_->entries() / (n * kColumns));
+  const double memory = 2 * static_cast<double>(base_->bytes()) / (8 * n * kColumns);
+  return std::fmin(cycle, memory);
 }
 
 void KeptStiffness::factorise(const Body& body, std::int64_t broken) {
@@ -99,7 +101,7 @@ bool KeptStiffness::hold_hinges(const Body& body, SparseMatrix& k) {
   return hinges_;
 }
 
-double KeptStiffness::product(const Column& column, Eigen::Index of) const {
+double KeptStiffness::product(const SparseColumn& column, Eigen::Index of) const {
   double sum = 0;
   for (const auto& [equation, value] : column)
     sum += value * solved_[static_cast<std::size_t>(of)][equation];
@@ -112,23 +114,20 @@ void KeptStiffness::add_change(const Body& body, std::int64_t event) {
   const auto d = static_cast<std::size_t>(body.dimension());
   const Eigen::Index before = std::ssize(columns_);
   for (const auto& column : change.columns) {
-    Column entries;
-    Vector dense = Vector::Zero(solver_ == Solver::direct ? equations_.count : 0);
+    SparseColumn entries;
     for (std::size_t c = 0; c < column.values.size(); ++c) {
       const auto dof =
           static_cast<std::size_t>(kVector) * static_cast<std::size_t>(column.particles[c / d]) +
           c % d;
       const std::int32_t equation = equations_.of[dof];
-      if (equation < 0) continue;
-      entries.emplace_back(equation, column.values[c]);
-      if (solver_ == Solver::direct) dense[equation] += column.values[c];
+      if (equation >= 0) entries.emplace_back(equation, column.values[c]);
     }
     columns_.push_back(std::move(entries));
-    if (solver_ == Solver::direct) solved_.push_back(base_->solve(dense));
   }
   weights_.push_back(change.weight);
   ++added_;
   if (solver_ == Solver::iterative) return;
+  base_->solve(std::span(columns_).subspan(static_cast<std::size_t>(before)), solved_);
   const Eigen::Index now = std::ssize(columns_);
   cross_.conservativeResize(now, now);
   for (Eigen::Index r = 0; r < now; ++r)

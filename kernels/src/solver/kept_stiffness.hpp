@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "model/body.hpp"
@@ -36,7 +35,6 @@ class KeptStiffness {
   std::int64_t bytes() const;
 
  private:
-  using Column = std::vector<std::pair<std::int64_t, double>>;  // equation, value
   void factorise(const Body& body, std::int64_t broken);
   bool factor(const Body& body, SparseMatrix& k);
   void add_change(const Body& body, std::int64_t event);
@@ -46,7 +44,7 @@ class KeptStiffness {
   bool finish();
   // The most bonds to correct for.
   double worthwhile() const;
-  double product(const Column& column, Eigen::Index of) const;
+  double product(const SparseColumn& column, Eigen::Index of) const;
 
   Equations equations_;
   Solver solver_ = Solver::direct;
@@ -59,7 +57,7 @@ class KeptStiffness {
   bool hinges_ = false;
   std::int64_t added_ = 0;  // bonds corrected for
   std::int64_t factorisations_ = 0;
-  std::vector<Column> columns_;                 // V
+  std::vector<SparseColumn> columns_;           // V
   std::vector<Vector> solved_;                  // K^-1 V, direct
   std::vector<std::vector<double>> weights_;    // W, block by block, rows beside each other
   Eigen::MatrixXd cross_;                       // V^T K^-1 V

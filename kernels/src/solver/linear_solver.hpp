@@ -7,11 +7,16 @@
 #include <Eigen/SparseLU>
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <utility>
+#include <vector>
 
 namespace cleave {
 
 using Vector = Eigen::VectorXd;
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, std::int32_t>;
+// Entries of a vector of few: equation, value.
+using SparseColumn = std::vector<std::pair<std::int64_t, double>>;
 
 // No equation of a singular system is known to be at fault.
 inline constexpr std::int64_t kNoEquation = -1;
@@ -21,12 +26,11 @@ class DirectSolver {
   // False: K is singular; weakest() then is an equation that nothing resists. The entries stand where they
   // stood in the call before.
   bool factor(const SparseMatrix& k, bool symmetric);
-  // With one right-hand side or several. The result depends on nothing else.
-  template <class B>
-  B solve(const B& b) const {
-    if (general_) return general_->solve(b);
-    return symmetric_.solve(b);
-  }
+  // The result depends on nothing else.
+  Vector solve(const Vector& b) const;
+  // With several sparse right-hand sides together, of the symmetric factor: the factor is read once for
+  // some of them, and only as far as entries reach. Appends to `x`.
+  void solve(std::span<const SparseColumn> b, std::vector<Vector>& x) const;
   std::int64_t weakest() const { return weakest_; }
   // Of the symmetric factor: multiplications that it took, and its entries.
   double operations() const { return operations_; }
@@ -35,6 +39,7 @@ class DirectSolver {
 
  private:
   bool well_conditioned(const Vector& diagonal);
+  void solve_together(std::span<const SparseColumn> b, std::vector<Vector>& x) const;
 
   Eigen::SimplicialLDLT<SparseMatrix> symmetric_;
   std::optional<Eigen::SparseLU<SparseMatrix>> general_;
