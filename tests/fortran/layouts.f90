@@ -200,6 +200,8 @@ contains
     call same('stop_at_limit of cleave_static_options', b, c_loc(s(1)%stop_at_limit))
     call same('solver of cleave_static_options', b, c_loc(s(1)%solver))
     call same('breaking of cleave_static_options', b, c_loc(s(1)%breaking))
+    call same('corrections of cleave_static_options', b, c_loc(s(1)%corrections))
+    call same('reserved of cleave_static_options', b, c_loc(s(1)%reserved))
     call last_member('cleave_static_options')
   end subroutine static_options_layout
 

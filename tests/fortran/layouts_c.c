@@ -117,6 +117,8 @@ static const int64_t kLayout[] = {
     (int64_t)offsetof(cleave_static_options, stop_at_limit),
     (int64_t)offsetof(cleave_static_options, solver),
     (int64_t)offsetof(cleave_static_options, breaking),
+    (int64_t)offsetof(cleave_static_options, corrections),
+    (int64_t)offsetof(cleave_static_options, reserved),
     -1,
     (int64_t)sizeof(cleave_static_report),
     (int64_t)offsetof(cleave_static_report, size),

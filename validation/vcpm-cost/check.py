@@ -1,4 +1,5 @@
-"""What an elastic lattice plate costs against its size: implicit with a direct and an iterative solver, explicit, and by finite elements.
+"""What an elastic lattice plate costs against its size: implicit with a direct and an iterative solver, explicit, and by finite elements;
+and what one bond that breaks costs, with a factor that is corrected and with a new one each time.
 
 Times are of the processor and of whole runs, set-up and files included.  With --full the smaller runs are made
 three times, and the shortest counts.
@@ -23,6 +24,9 @@ SIZES = {"quick": {"direct": (24, 40, 60, 100), "iterative": (24, 40, 60, 100), 
                   "relaxation": (24, 40, 60, 100), "explicit": (24, 40, 60, 100), "steps": (170, 300, 540)}}
 FITTED = {"direct": 40, "iterative": 40, "fem": 40, "fem-iterative": 40, "relaxation": 24, "explicit": 24}  # exponents from this size on
 REPEATED = 100                                            # up to this size
+# The strip that breaks: spacing and length of the pre-crack [mm] before a long and before a short ligament.
+STRIP = 60.0                                              # mm, its length
+CRACKS = {"quick": (0.25, 40.0, 54.0), "full": (0.1, 2.0, 58.0)}
 
 
 def rows(n):
@@ -71,6 +75,17 @@ def made(kind, name, n):
     return finite_elements(name, n, "iterative" if kind == "fem-iterative" else "direct")
 
 
+def crack(name, mode, start, **changes):
+    return Run(name, "crack.nml", {"lattice.spacing": CRACKS[mode][0], "precrack.points": (-1, 2.51, start, 2.51)} | changes)
+
+
+def cracks(mode):
+    """Nothing breaks in the first."""
+    _, long, short = CRACKS[mode]
+    return [crack("crack-none", mode, long, **{"load(2).value": 0.005}), crack("crack-long", mode, long),
+            crack("crack-short", mode, short), crack("crack-factorised", mode, short, **{"static.corrections": 0})]
+
+
 def repeats(mode, kind, n):
     return 3 if mode == "full" and n <= REPEATED and kind not in ("relaxation", "explicit") else 1
 
@@ -78,7 +93,8 @@ def repeats(mode, kind, n):
 def runs(mode):
     sizes = SIZES[mode]
     found = [made(kind, f"{kind}-{n}-{number}", n) for kind in FITTED for n in sizes[kind] for number in range(repeats(mode, kind, n))]
-    return found + [explicit(f"steps-{n}-{count}", n, count) for n in sizes["steps"] for count in COUNTS]
+    found += [explicit(f"steps-{n}-{count}", n, count) for n in sizes["steps"] for count in COUNTS]
+    return found + cracks(mode)
 
 
 # ---- figures
@@ -112,7 +128,30 @@ def exponent(case, kind):
     return numpy.polyfit(numpy.log([unknowns(n, kind) for n in chosen]), numpy.log([time(case, kind, n) for n in chosen]), 1)[0]
 
 
+def of_event(case, name):
+    """Processor time of one bond that breaks, s."""
+    result, start = case.results[name], case.results["crack-none"]
+    return (result.cost["processor"] - start.cost["processor"]) / result.history["broken"][-1]
+
+
+def check_cracks(case):
+    spacing, long, _ = CRACKS[case.mode]
+    count = case.results["crack-long"].history["broken"][-1]
+    case.figure("crack_none", case.results["crack-none"].history["broken"][-1])
+    case.figure("crack_events", count)
+    case.figure("crack_crossing", count / (2 * (STRIP - long) / spacing))
+    short, factorised = (case.results[name].history for name in ("crack-short", "crack-factorised"))
+    loads = [history["reaction_top_y"] for history in (short, factorised)]
+    same = len(loads[0]) == len(loads[1])
+    case.figure("crack_answer", abs(loads[0] - loads[1]).max() / loads[0].max() if same else numpy.inf)
+    for name in ("long", "factorised"):
+        case.figure(f"time_event_{name}", of_event(case, f"crack-{name}"))
+    case.figure("ratio_event", of_event(case, "crack-factorised") / of_event(case, "crack-long"))
+    case.figure("thousand", 1000 * of_event(case, "crack-long"))
+
+
 def check(case):
+    check_cracks(case)
     for kind in ("iterative", "relaxation", "explicit"):
         for n in SIZES[case.mode][kind]:
             if n in SIZES[case.mode]["direct"]:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 
 #include "scene/format.hpp"
 
@@ -66,7 +67,9 @@ Stepping::Stepping(const Deck& deck)
                                                                : CLEAVE_SOLVER_DIRECT),
       tolerance_(deck.one("static").real("tolerance")),
       max_iterations_(deck.one("static").integer("max_iterations")),
-      cut_backs_(deck.one("static").integer("cut_backs")) {
+      cut_backs_(deck.one("static").integer("cut_backs")),
+      corrections_(static_cast<std::int32_t>(std::min<std::int64_t>(
+          deck.one("static").integer("corrections"), std::numeric_limits<std::int32_t>::max()))) {
   if (static_) refuse_dynamics(deck);
 }
 
@@ -139,6 +142,7 @@ cleave_static_options Stepping::static_options() const {
   options.breaking = breaking_;
   options.solver = solver_;
   options.stop_at_limit = by_events_ ? 1 : 0;
+  options.corrections = corrections_;
   return options;
 }
 

@@ -54,6 +54,7 @@ class Stepping {
   std::int32_t breaking_, solver_;
   double tolerance_;
   std::int64_t max_iterations_, cut_backs_;
+  std::int32_t corrections_;
 };
 
 }  // namespace cleave::driver

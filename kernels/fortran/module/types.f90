@@ -121,6 +121,8 @@ module cleave_types
     integer(c_int32_t) :: stop_at_limit = 0
     integer(c_int32_t) :: solver = 0
     integer(c_int32_t) :: breaking = 0
+    integer(c_int32_t) :: corrections = 0
+    integer(c_int32_t) :: reserved = 0
   end type cleave_static_options
 
   type, bind(C), public :: cleave_static_report

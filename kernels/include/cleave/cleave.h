@@ -479,6 +479,9 @@ typedef struct cleave_static_options {
       stop_at_limit; /* 1: go no further than to where a first bond reaches its limit; default 0 */
   int32_t solver;    /* enum cleave_solver, of the linear systems; default DIRECT */
   int32_t breaking;  /* enum cleave_breaking, of cleave_model_break_static; default ALL */
+  int32_t corrections; /* bonds that a kept factor is corrected for at most; 0: a new one for each;
+                          default -1: while it pays */
+  int32_t reserved;
 } cleave_static_options;
 typedef struct cleave_static_report {
   int64_t size;

@@ -31,11 +31,17 @@ Solver solver_of(std::int32_t value) {
                                         "CLEAVE_SOLVER_ITERATIVE"));
 }
 
+std::int64_t corrections_of(std::int32_t value) {
+  if (value >= -1) return value;
+  throw Error(CLEAVE_BAD_ARGUMENT, text("corrections is ", value, "; allowed: >= -1"));
+}
+
 StaticOptions options_of(const cleave_static_options* options) {
   if (options == nullptr) return {};
   check_size(*options, "cleave_static_options");
-  return {options->tolerance, options->max_iterations, options->stop_at_limit != 0,
-          breaking_of(options->breaking), solver_of(options->solver)};
+  return {options->tolerance,          options->max_iterations,
+          options->stop_at_limit != 0, breaking_of(options->breaking),
+          solver_of(options->solver),  corrections_of(options->corrections)};
 }
 
 template <class Solve>
@@ -55,9 +61,14 @@ void answer(cleave_model* model, cleave_static_report* report, const Solve& solv
 int32_t cleave_static_options_init(cleave_static_options* options) {
   return guarded("cleave_static_options_init", [&] {
     const StaticOptions defaults;
-    required(options, "options") = {sizeof(cleave_static_options), defaults.tolerance,
-                                    defaults.max_iterations,       0,
-                                    CLEAVE_SOLVER_DIRECT,          CLEAVE_BREAKING_ALL};
+    required(options, "options") = {sizeof(cleave_static_options),
+                                    defaults.tolerance,
+                                    defaults.max_iterations,
+                                    0,
+                                    CLEAVE_SOLVER_DIRECT,
+                                    CLEAVE_BREAKING_ALL,
+                                    static_cast<std::int32_t>(defaults.corrections),
+                                    0};
   });
 }
 

@@ -19,14 +19,15 @@ constexpr double kIterated = 50;
 
 }  // namespace
 
-void KeptStiffness::follow(Body& body, Solver solver, ThreadTeam& team) {
+void KeptStiffness::follow(Body& body, Solver solver, std::int64_t corrections, ThreadTeam& team) {
   std::int32_t& factored = body.fields.integer("factored_bonds")[0];
   const std::int64_t broken = body.formulation->broken_bonds();
   team_ = &team;
   if (solver_ != solver) factored_ = -1;
   solver_ = solver;
   if (factored_ != factored || factored_ + added_ > broken) factorise(body, factored);
-  if (static_cast<double>(broken - factored_) <= worthwhile()) {
+  const double most = corrections < 0 ? worthwhile() : static_cast<double>(corrections);
+  if (static_cast<double>(broken - factored_) <= most) {
     while (factored_ + added_ < broken) add_change(body, factored_ + added_ + 1);
     if (finish()) return;
   }

@@ -19,9 +19,9 @@ namespace cleave {
 
 class KeptStiffness {
  public:
-  // Follows the body to the bonds that carry now. Throws NO_CONVERGENCE where it has a part that can move
+  // Follows the body to the bonds that carry now, with this many corrections at most (-1: while they pay). Throws NO_CONVERGENCE where it has a part that can move
   // without resistance.
-  void follow(Body& body, Solver solver, ThreadTeam& team);
+  void follow(Body& body, Solver solver, std::int64_t corrections, ThreadTeam& team);
   // x with K x = r for the bonds of the last call of `follow`; iterative: to this tolerance. False: why() says it.
   bool solve(const Vector& r, double tolerance, Vector& x);
   const std::string& why() const { return why_; }

@@ -37,7 +37,7 @@ Newton::Newton(Body& body, const Clock& clock, ThreadTeam& team, const StaticOpt
       external_(committed_.values("external_force")),
       jump_(displacement_.size(), 0.0) {
   if (constant_) {
-    kept_.follow(body, options.solver, team);
+    kept_.follow(body, options.solver, options.corrections, team);
     check_loads();
   } else {
     equations_ = Equations(body, g_);

@@ -19,6 +19,7 @@ struct StaticOptions {
   bool stop_at_limit = false;
   Breaking breaking = Breaking::all;
   Solver solver = Solver::direct;
+  std::int64_t corrections = -1;  // broken bonds for one factor at most; -1: while it pays
 };
 
 struct StaticReport {

@@ -174,6 +174,30 @@ TEST(VolumeCompensatedFracture, ConjugateGradientsBreakTheSameBonds) {
   EXPECT_GT(most, 60u);  // so that multigrid is made anew on the way
 }
 
+// Bonds that the factor does not know yet, after each that breaks.
+TEST(VolumeCompensatedFracture, FactorsAreCorrectedAsOftenAsTheCallerAllows) {
+  Strip expected({}, 12);
+  expected.load(far({}));
+  for (int k = 0; k < 9; ++k) expected.break_once();
+  for (const std::int32_t most : {0, 1, 3}) {
+    Strip strip({}, 12);
+    strip.newton.corrections = most;
+    strip.load(far({}));
+    for (std::int32_t k = 1; k < 10; ++k) {
+      strip.break_once();
+      EXPECT_EQ(k - strip.model.integer("factored_bonds")[0], k % (most + 1)) << most;
+    }
+    EXPECT_EQ(strip.order(), expected.order()) << most;
+    // measured 3e-15
+    EXPECT_NEAR(strip.force(), expected.force(), 1e-11 * std::fabs(expected.force())) << most;
+  }
+  expected.newton.corrections = -2;
+  cleave_static_report report{};
+  report.size = sizeof report;
+  EXPECT_EQ(cleave_model_break_static(expected.model, &expected.newton, &report),
+            CLEAVE_BAD_ARGUMENT);
+}
+
 TEST(VolumeCompensatedFracture, ARestartHasTheSameBits) {
   for (const Brittle& kind : kKinds)
     for (const int stop : {3, 9, 14}) {
