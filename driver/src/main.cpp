@@ -282,7 +282,8 @@ int run_command_line(int argc, char** argv) {
       "Cleave simulates impact and dynamic fracture of solids with particle methods.\n"
       "`cleave DECK` runs a deck.",
       "cleave");
-  app.set_version_flag("--version", std::string("cleave ") + cleave_version());
+  app.set_version_flag("--version",
+                       std::string("cleave ") + cleave_version() + CLEAVE_VERSION_NOTE);
   app.require_subcommand(0, 1);
   app.add_option("DECK", words.deck_to_run, "deck to run (Fortran namelist)");
   add_run_options(app, words);

@@ -7,4 +7,7 @@ list(REMOVE_DUPLICATES CLEAVE_RUNTIME)
 if(CMAKE_THREAD_LIBS_INIT)  # empty where the C library has them
   list(APPEND CLEAVE_RUNTIME pthread)
 endif()
+if(CLEAVE_CHOLMOD)
+  list(APPEND CLEAVE_RUNTIME cholmod)
+endif()
 list(APPEND CLEAVE_RUNTIME m)

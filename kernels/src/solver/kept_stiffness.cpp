@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <span>
 
 namespace cleave {
@@ -16,6 +17,8 @@ constexpr double kHinge = 1e-10;
 constexpr double kColumns = 3;
 // Bonds that iterations correct for: multigrid of the matrix before serves as well that long.
 constexpr double kIterated = 50;
+// And those that a factor follows by itself: rounding gathers.
+constexpr double kFollowed = 1000;
 
 }  // namespace
 
@@ -39,6 +42,7 @@ void KeptStiffness::follow(Body& body, Solver solver, std::int64_t corrections, 
 // and b those of one more correction: least at m = sqrt(2 F/b). And the columns shall not need more memory than twice the factor.
 double KeptStiffness::worthwhile() const {
   if (solver_ == Solver::iterative) return kIterated;
+  if (base_->can_follow()) return kFollowed;
   const auto n = static_cast<double>(std::max<std::int64_t>(equations_.count, 1));
   const double cycle = std::sqrt(2 * base_->operations() / (2 * n * kColumns));
   const double memory = 2 * static_cast<double>(base_->bytes()) / (8 * n * kColumns);
@@ -48,6 +52,7 @@ double KeptStiffness::worthwhile() const {
 void KeptStiffness::factorise(const Body& body, std::int64_t broken) {
   factored_ = broken;
   added_ = 0;
+  lost_ = false;
   ++factorisations_;
   columns_.clear();
   solved_.clear();
@@ -113,7 +118,7 @@ void KeptStiffness::add_change(const Body& body, std::int64_t event) {
   StiffnessChange change;
   body.formulation->stiffness_change(body, event, change);
   const auto d = static_cast<std::size_t>(body.dimension());
-  const Eigen::Index before = std::ssize(columns_);
+  std::vector<SparseColumn> columns;
   for (const auto& column : change.columns) {
     SparseColumn entries;
     for (std::size_t c = 0; c < column.values.size(); ++c) {
@@ -123,11 +128,20 @@ void KeptStiffness::add_change(const Body& body, std::int64_t event) {
       const std::int32_t equation = equations_.of[dof];
       if (equation >= 0) entries.emplace_back(equation, column.values[c]);
     }
-    columns_.push_back(std::move(entries));
+    columns.push_back(std::move(entries));
+  }
+  ++added_;
+  if (solver_ == Solver::direct && base_->can_follow()) {
+    lost_ = lost_ || !base_->follow(columns, change.weight);
+    return;
   }
   weights_.push_back(change.weight);
-  ++added_;
-  if (solver_ == Solver::iterative) return;
+  const Eigen::Index before = std::ssize(columns_);
+  std::move(columns.begin(), columns.end(), std::back_inserter(columns_));
+  if (solver_ == Solver::direct) solve_columns(before);
+}
+
+void KeptStiffness::solve_columns(Eigen::Index before) {
   base_->solve(std::span(columns_).subspan(static_cast<std::size_t>(before)), solved_);
   const Eigen::Index now = std::ssize(columns_);
   cross_.conservativeResize(now, now);
@@ -137,6 +151,7 @@ void KeptStiffness::add_change(const Body& body, std::int64_t event) {
 }
 
 bool KeptStiffness::finish() {
+  if (lost_) return false;
   const Eigen::Index size = std::ssize(columns_);
   weight_ = Eigen::MatrixXd::Zero(size, size);
   Eigen::Index place = 0;

@@ -38,9 +38,12 @@ class KeptStiffness {
   void factorise(const Body& body, std::int64_t broken);
   bool factor(const Body& body, SparseMatrix& k);
   void add_change(const Body& body, std::int64_t event);
+  // K^-1 V from this column on.
+  void solve_columns(Eigen::Index before);
   void add_changes(const Vector& p, Vector& q) const;
   Vector pulled(const Vector& x) const;  // V^T x
   bool hold_hinges(const Body& body, SparseMatrix& k);
+  // False: what was corrected has no inverse.
   bool finish();
   // The most bonds to correct for.
   double worthwhile() const;
@@ -56,8 +59,9 @@ class KeptStiffness {
   std::int64_t factored_ = -1;  // bonds broken in the factor
   bool hinges_ = false;
   std::int64_t added_ = 0;  // bonds corrected for
+  bool lost_ = false;       // the factor could not follow
   std::int64_t factorisations_ = 0;
-  std::vector<SparseColumn> columns_;           // V
+  std::vector<SparseColumn> columns_;           // V, of what the factor itself does not follow
   std::vector<Vector> solved_;                  // K^-1 V, direct
   std::vector<std::vector<double>> weights_;    // W, block by block, rows beside each other
   Eigen::MatrixXd cross_;                       // V^T K^-1 V

@@ -2,24 +2,16 @@
 // says about the body. What K stands for is not known here.
 #pragma once
 
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
 #include <Eigen/SparseLU>
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
+#include "solver/sparse_matrix.hpp"
+#include "solver/symmetric_factor.hpp"
+
 namespace cleave {
-
-using Vector = Eigen::VectorXd;
-using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, std::int32_t>;
-// Entries of a vector of few: equation, value.
-using SparseColumn = std::vector<std::pair<std::int64_t, double>>;
-
-// No equation of a singular system is known to be at fault.
-inline constexpr std::int64_t kNoEquation = -1;
 
 class DirectSolver {
  public:
@@ -28,9 +20,14 @@ class DirectSolver {
   bool factor(const SparseMatrix& k, bool symmetric);
   // The result depends on nothing else.
   Vector solve(const Vector& b) const;
-  // With several sparse right-hand sides together, of the symmetric factor: the factor is read once for
-  // some of them, and only as far as entries reach. Appends to `x`.
+  // With several sparse right-hand sides; appends to `x`.
   void solve(std::span<const SparseColumn> b, std::vector<Vector>& x) const;
+  // Whether the factor itself can follow changes of K.
+  bool can_follow() const { return !general_ && SymmetricFactor::can_follow(); }
+  // From K to K + V W V^T, W symmetric with its rows beside each other. False: it is singular or not positive
+  // definite, and the factor is lost.
+  bool follow(std::span<const SparseColumn> v, std::span<const double> w);
+
   std::int64_t weakest() const { return weakest_; }
   // Of the symmetric factor: multiplications that it took, and its entries.
   double operations() const { return operations_; }
@@ -38,12 +35,12 @@ class DirectSolver {
   std::int64_t bytes() const { return static_cast<std::int64_t>(entries_ * 12); }
 
  private:
-  bool well_conditioned(const Vector& diagonal);
-  void solve_together(std::span<const SparseColumn> b, std::vector<Vector>& x) const;
+  // Or, where it has to be, positive definite as well.
+  bool well_conditioned(bool positive);
 
-  Eigen::SimplicialLDLT<SparseMatrix> symmetric_;
+  SymmetricFactor symmetric_;
   std::optional<Eigen::SparseLU<SparseMatrix>> general_;
-  bool analysed_ = false;
+  Vector diagonal_;  // of K
   std::int64_t weakest_ = kNoEquation;
   double operations_ = 0, entries_ = 0;
 };

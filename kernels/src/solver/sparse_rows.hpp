@@ -7,7 +7,7 @@
 #include <type_traits>
 
 #include "core/blocks.hpp"
-#include "solver/linear_solver.hpp"
+#include "solver/sparse_matrix.hpp"
 
 namespace cleave {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "model/body.hpp"
-#include "solver/linear_solver.hpp"
+#include "solver/sparse_matrix.hpp"
 
 namespace cleave {
 
