@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "io/error.hpp"
+#include "io/lattice_cut.hpp"
 
 namespace cleave::io {
 namespace {
@@ -379,8 +380,10 @@ Mesh make(const LatticeSpec& spec) {
 }  // namespace
 
 Mesh make_lattice(const LatticeSpec& spec) {
+  const LatticeSpec along;
+  const bool is_turned = spec.x_axis != along.x_axis || spec.y_axis != along.y_axis;
   try {
-    return make(spec);
+    return is_turned ? make_turned_lattice(spec) : make(spec);
   } catch (const std::bad_alloc&) {
     throw Error(
         "lattice: there is not enough memory for its points and simplices; is the spacing " +

@@ -20,6 +20,8 @@ struct LatticeSpec {
   std::array<double, 3> size{0, 0, 0};  // block: edge lengths (fitted: see below)
   double radius = 0, height = 0;        // cylinder (axis `axis`), sphere, disc
   int axis = 2;
+  // Directions of the lattice's own axes; in two dimensions x_axis alone.
+  std::array<double, 3> x_axis{1, 0, 0}, y_axis{0, 1, 0};
 };
 
 // Points are numbered lexicographically. square and hexagonal give triangles, the others tetrahedra
@@ -30,6 +32,7 @@ struct LatticeSpec {
 // simplex are dropped. Groups: all simplices as "all"; for a block the points of its faces as
 // "xmin", "xmax", "ymin", "ymax", "zmin", "zmax" (extreme coordinates within half a spacing *
 // 1e-6), for a cylinder those of its base and top, "zmin" and "zmax" if its axis is z.
+// A lattice that is turned is that of make_turned_lattice (lattice_cut.hpp).
 // Throws io::Error: spacing, size or radius not above zero, more than 2^31 points, not one cell.
 Mesh make_lattice(const LatticeSpec& spec);
 

@@ -90,11 +90,13 @@ bool has_cell_points(const DeckGroup& group) {
 void check_cell_points(const Deck& deck, const DeckGroup& group) {
   if (!has_cell_points(group)) return;
   const std::string& type = group.text("type");
-  if ((type != "square" && type != "cubic") || group.text("shape") != "block") {
-    deck.fail(
-        group, "points",
-        "points = 'centres' is for blocks of a square or cubic lattice; use points = 'corners', or "
-        "a file of points");
+  const bool is_turned = group.given("x_axis") || group.given("y_axis");
+  if ((type != "square" && type != "cubic") || group.text("shape") != "block" || is_turned ||
+      !group.text("inside").empty()) {
+    deck.fail(group, "points",
+              "points = 'centres' is for blocks of a square or cubic lattice along the axes; use "
+              "points = "
+              "'corners', or a file of points");
   }
   for (std::size_t k = 0; k < (type == "square" ? 2u : 3u); ++k) {
     if (group.reals("size")[k] > 1.5 * group.real("spacing")) continue;

@@ -11,6 +11,7 @@
 
 #include "io/error.hpp"
 #include "io/lattice.hpp"
+#include "io/lattice_cut.hpp"
 #include "io/mesh.hpp"
 #include "scene/cloud.hpp"
 #include "scene/format.hpp"
@@ -47,19 +48,13 @@ io::LatticeSpec lattice_spec(const DeckGroup& group) {
   spec.radius = group.real("radius");
   spec.height = group.real("height");
   spec.axis = group.text("axis")[0] - 'x';
+  std::copy_n(group.reals("x_axis").begin(), 3, spec.x_axis.begin());
+  std::copy_n(group.reals("y_axis").begin(), 3, spec.y_axis.begin());
   return spec;
 }
 
-io::Mesh mesh_of(const Deck& deck, const DeckGroup& group) {
+io::Mesh read_mesh(const Deck& deck, const DeckGroup& group) {
   namespace fs = std::filesystem;
-  if (group.name == "lattice") {
-    check_cell_points(deck, group);
-    try {
-      return io::make_lattice(lattice_spec(group));
-    } catch (const io::Error& error) {
-      deck.fail(group, error.what());
-    }
-  }
   const fs::path file(group.text("file"));
   const fs::path path = file.is_absolute() ? file : fs::path(deck.source.path).parent_path() / file;
   try {
@@ -69,6 +64,33 @@ io::Mesh mesh_of(const Deck& deck, const DeckGroup& group) {
     return mesh;
   } catch (const io::Error& error) {
     deck.fail(group, "file", error.what());
+  }
+}
+
+// The lattice, cut to the mesh that it is to be inside of.
+io::Mesh cut_lattice(const Deck& deck, const DeckGroup& group) {
+  const std::string& inside = group.text("inside");
+  io::LatticeSpec spec = lattice_spec(group);
+  if (inside.empty()) return io::make_lattice(spec);
+  const DeckGroup& source = named_group(deck, {"mesh", "lattice", "points"}, inside);
+  if (source.name != "mesh")
+    deck.fail(group, "inside", in_quotes(inside) + " is a &" + source.name + "; allowed: a &mesh");
+  const io::Mesh outline = read_mesh(deck, source);
+  const auto& size = group.reals("size");
+  const bool no_size = std::all_of(size.begin(), size.end(), [](double a) { return a == 0; });
+  if (spec.shape == io::ShapeKind::block && no_size) spec = io::around(spec, outline);
+  io::Mesh lattice = io::make_lattice(spec);
+  io::cut_to_outline(outline, spec.spacing, lattice);
+  return lattice;
+}
+
+io::Mesh mesh_of(const Deck& deck, const DeckGroup& group) {
+  if (group.name != "lattice") return read_mesh(deck, group);
+  check_cell_points(deck, group);
+  try {
+    return cut_lattice(deck, group);
+  } catch (const io::Error& error) {
+    deck.fail(group, error.what());
   }
 }
 

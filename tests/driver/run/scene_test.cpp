@@ -113,6 +113,29 @@ TEST_F(Refused, PlaneBodyFromTetrahedra) {
 
 using Accepted = RunDirectory;
 
+// A triangle to which a lattice of rows at 30 degrees is cut.
+TEST_F(Refused, LatticesThatCannotBeCut) {
+  std::ofstream(path("three.msh")) << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n"
+                                      "2 8 0 0\n3 0 8 0\n$EndNodes\n$Elements\n1\n"
+                                      "1 2 2 1 1 1 2 3\n$EndElements\n";
+  const std::string groups =
+      "&mesh name='three' file='" + path("three.msh") +
+      "' /\n"
+      "&body name='plate' mesh='plate' kinematics='plane_stress' material='unit' /\n" +
+      std::string(kUnitMaterial);
+  const auto lattice = [](const std::string& keys) {
+    return "&lattice name='plate' type='hexagonal' spacing=0.5 " + keys + " /\n";
+  };
+  run("t_end=1", groups + lattice("inside='three' x_axis=3,1.7320508"));
+  const auto refused = [&](const std::string& keys) {
+    return message_of<DeckError>([&] { run("t_end=1", groups + lattice(keys)); });
+  };
+  EXPECT_TRUE(has(refused("inside='plate'"), "'plate' is a &lattice; allowed: a &mesh"));
+  EXPECT_TRUE(has(refused("inside='tree'"), "did you mean 'three'?"));
+  EXPECT_TRUE(has(refused("inside='three' size=1,1 origin=9,9,0"), "not one of its cells"));
+  EXPECT_TRUE(has(refused("size=4,4 x_axis=0,0,1"), "in the plane, with z = 0"));
+}
+
 TEST_F(Accepted, ExemptZoneAndUnstableStepWithAWarning) {
   EXPECT_EQ(run("t_end=1.2 time_step=1.2 step_check='warn'",
                 kPlate + "&fracture critical_strain=0.1 /\n&exempt set='ymax' /\n"),
