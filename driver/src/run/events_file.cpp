@@ -17,7 +17,9 @@ std::vector<io::Column> columns(const Scene& scene) {
           {"x", units("m"), "reference position of the middle of the bond", false},
           {"y", units("m"), "reference position of the middle of the bond", false},
           {"z", units("m"), "reference position of the middle of the bond", false},
-          {"criterion", "1", "value of the fracture criterion: bond strain", false},
+          {"criterion", "1",
+           "value of the fracture criterion: bond strain, or force [N] or energy [J] of the bond",
+           false},
           {"limit", "1", "critical value of the criterion", false},
           {"released", units("J"), "energy released by this bond", false}};
 }

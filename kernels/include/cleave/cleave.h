@@ -552,8 +552,8 @@ typedef struct cleave_event {
   int64_t first, second; /* particles at the ends, first < second */
   double time;           /* [s] end of that step */
   double midpoint[3];    /* reference position of the middle [m] */
-  double criterion;      /* value of the criterion (bond strain) [1] */
-  double limit;          /* its critical value [1] */
+  double criterion;      /* value of the criterion: bond strain [1], or its force [N], energy [J] */
+  double limit;          /* its critical value */
   double released;       /* energy released by this bond [J]; the sum over bonds is the ledger's
                             without what bonds have lost that soften and are not broken */
 } cleave_event;

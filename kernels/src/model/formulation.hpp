@@ -52,7 +52,7 @@ struct StiffnessChange {
 // Which of the bonds break that fail in an equilibrium.
 enum class Breaking {
   all,
-  one,  // the one furthest beyond its limit, the first of equals
+  one,  // the one furthest beyond its limit, the first of those within 1e-9
   ties  // that one, and those as far beyond within 1e-9
 };
 

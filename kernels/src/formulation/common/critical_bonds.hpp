@@ -1,7 +1,7 @@
 // Which of the bonds that are beyond their limits break together.
 #pragma once
 
-#include <cmath>
+#include <algorithm>
 #include <vector>
 
 #include "model/formulation.hpp"
@@ -13,15 +13,15 @@ inline constexpr double kTie = 1e-9;
 
 inline void keep_most_critical(std::vector<CriticalBond>& found, Breaking which) {
   if (which == Breaking::all || found.empty()) return;
-  CriticalBond most = found.front();
-  for (const CriticalBond& bond : found)
-    if (bond.ratio > most.ratio) most = bond;
-  if (which == Breaking::one) {
-    found.assign(1, most);
-  } else {
-    std::erase_if(found,
-                  [&](const CriticalBond& bond) { return bond.ratio < (1 - kTie) * most.ratio; });
-  }
+  const auto largest = std::max_element(
+      found.begin(), found.end(), [](const auto& a, const auto& b) { return a.ratio < b.ratio; });
+  const double least = (1 - kTie) * largest->ratio;
+  std::erase_if(found, [&](const CriticalBond& bond) { return bond.ratio < least; });
+  if (which == Breaking::ties) return;
+  // Of equals the lowest number: rounding does not choose.
+  const auto first = std::min_element(found.begin(), found.end(),
+                                      [](const auto& a, const auto& b) { return a.bond < b.bond; });
+  found.assign(1, CriticalBond{*first});
 }
 
 }  // namespace cleave

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "formulation/common/critical_bonds.hpp"
 #include "formulation/vcpm/balls.hpp"
 #include "solver/loaded_patch.hpp"
 
@@ -111,6 +112,20 @@ int cells_of(const Brittle& b) { return b.kinematics == CLEAVE_3D ? 5 : 12; }
 double far(const Brittle& b) {
   if (b.kinematics == CLEAVE_3D) return 0.02;
   return b.criterion == "strain" ? 0.01 : 0.006;
+}
+
+TEST(VolumeCompensatedFracture, RoundingDoesNotChooseAmongEquals) {
+  const std::vector<CriticalBond> bonds = {{9, 1.2}, {7, 1.5 + 1e-12}, {3, 1.5}, {5, 1.5 - 1e-8}};
+  const auto kept = [&](Breaking which) {
+    std::vector<CriticalBond> found = bonds;
+    keep_most_critical(found, which);
+    std::vector<std::int32_t> numbers;
+    for (const CriticalBond& bond : found) numbers.push_back(bond.bond);
+    return numbers;
+  };
+  EXPECT_EQ(kept(Breaking::one), (std::vector<std::int32_t>{3}));
+  EXPECT_EQ(kept(Breaking::ties), (std::vector<std::int32_t>{7, 3}));
+  EXPECT_EQ(kept(Breaking::all).size(), 4u);
 }
 
 // A corrected factorisation that were not that of the bonds that carry would need more iterations.
