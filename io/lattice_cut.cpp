@@ -54,6 +54,10 @@ Axes axes_of(const LatticeSpec& spec) {
 class Shape {
  public:
   explicit Shape(const LatticeSpec& spec) : spec_(spec) {
+    if (is_plane(spec) && spec.shape == ShapeKind::cylinder)
+      throw Error(
+          "lattice: a cylinder needs a lattice in space (cubic, bcc, fcc); for a disc take the "
+          "shape sphere");
     for (std::size_t k = 0; k < dimension(); ++k) {
       const bool is_axis = k == static_cast<std::size_t>(spec.axis);
       const bool round =

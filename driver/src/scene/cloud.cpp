@@ -95,8 +95,7 @@ void check_cell_points(const Deck& deck, const DeckGroup& group) {
       !group.text("inside").empty()) {
     deck.fail(group, "points",
               "points = 'centres' is for blocks of a square or cubic lattice along the axes; use "
-              "points = "
-              "'corners', or a file of points");
+              "points = 'corners', or a file of points");
   }
   for (std::size_t k = 0; k < (type == "square" ? 2u : 3u); ++k) {
     if (group.reals("size")[k] > 1.5 * group.real("spacing")) continue;

@@ -3,8 +3,8 @@
 // downdates are those of Davis and Hager.                                               [ST follow]
 #include <algorithm>
 #include <cstdint>
+#include <new>
 
-#include "core/error.hpp"
 #include "solver/symmetric_factor.hpp"
 // With the types above.
 #include <cholmod.h>

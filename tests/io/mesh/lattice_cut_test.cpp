@@ -114,6 +114,10 @@ TEST(TurnedLattice, RefusesAxesThatAreNone) {
   expect_error([&] { make_lattice(plane); }, {"x_axis", "in the plane"});
   plane.x_axis = {0, 0, 0};
   expect_error([&] { make_lattice(plane); }, {"x_axis", "direction"});
+  plane.x_axis = {1, 1, 0};
+  plane.shape = ShapeKind::cylinder;
+  plane.radius = plane.height = 1;
+  expect_error([&] { make_lattice(plane); }, {"cylinder", "disc"});
   LatticeSpec solid = spec_of(LatticeKind::bcc, {2, 2, 2}, 0.3);
   solid.x_axis = {0, 2, 0};
   expect_error([&] { make_lattice(solid); }, {"parallel", "y_axis"});
