@@ -25,15 +25,6 @@ LatticeSpec spec_of(LatticeKind lattice, std::array<double, 3> size, double spac
   return spec;
 }
 
-double distance(const Mesh& mesh, std::int64_t a, std::int64_t b) {
-  double square = 0;
-  for (std::size_t k = 0; k < 3; ++k)
-    square += std::pow(mesh.points[3 * static_cast<std::size_t>(a) + k] -
-                           mesh.points[3 * static_cast<std::size_t>(b) + k],
-                       2);
-  return std::sqrt(square);
-}
-
 std::int64_t count_inside(const Mesh& mesh, const std::function<bool(Point)>& inside) {
   std::int64_t count = 0;
   for (std::int64_t i = 0; i < mesh.point_count(); ++i)

@@ -42,15 +42,6 @@ const CellBlock& simplices(const Mesh& mesh) {
   return mesh.tetrahedra.nodes.empty() ? mesh.triangles : mesh.tetrahedra;
 }
 
-double distance(const Mesh& mesh, std::int64_t a, std::int64_t b) {
-  double square = 0;
-  for (std::size_t k = 0; k < 3; ++k)
-    square += std::pow(mesh.points[3 * static_cast<std::size_t>(a) + k] -
-                           mesh.points[3 * static_cast<std::size_t>(b) + k],
-                       2);
-  return std::sqrt(square);
-}
-
 std::map<Numbers, int> facets(const CellBlock& cells) {
   const auto corners = static_cast<std::size_t>(cells.kind);
   std::map<Numbers, int> count;

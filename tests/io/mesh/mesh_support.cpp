@@ -51,6 +51,15 @@ void write_bytes(const std::string& path, const std::string& bytes) {
   ASSERT_TRUE(stream) << path;
 }
 
+double distance(const Mesh& mesh, std::int64_t a, std::int64_t b) {
+  double square = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+    square += std::pow(mesh.points[3 * static_cast<std::size_t>(a) + k] -
+                           mesh.points[3 * static_cast<std::size_t>(b) + k],
+                       2);
+  return std::sqrt(square);
+}
+
 double measure(const Mesh& mesh, const CellBlock& block, std::int64_t cell) {
   const auto corners = static_cast<std::int64_t>(block.kind);
   std::array<Vector, 4> x{};

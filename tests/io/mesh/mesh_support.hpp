@@ -17,6 +17,8 @@ std::string scratch_path(const std::string& name);
 std::string read_bytes(const std::string& path);
 void write_bytes(const std::string& path, const std::string& bytes);
 
+// Of two points.
+double distance(const Mesh& mesh, std::int64_t a, std::int64_t b);
 // Signed; lengths are not.
 double measure(const Mesh& mesh, const CellBlock& block, std::int64_t cell);
 double total_measure(const Mesh& mesh, const CellBlock& block);  // of absolute values
