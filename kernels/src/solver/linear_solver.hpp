@@ -29,9 +29,8 @@ class DirectSolver {
   bool follow(std::span<const SparseColumn> v, std::span<const double> w);
 
   std::int64_t weakest() const { return weakest_; }
-  // Of the symmetric factor: multiplications that it took, and its entries.
+  // Of the symmetric factor: multiplications that it took, and its memory.
   double operations() const { return operations_; }
-  double entries() const { return entries_; }
   std::int64_t bytes() const { return static_cast<std::int64_t>(entries_ * 12); }
 
  private:

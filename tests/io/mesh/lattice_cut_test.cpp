@@ -16,15 +16,6 @@ namespace {
 
 using Point = const double*;
 
-LatticeSpec spec_of(LatticeKind lattice, std::array<double, 3> size, double spacing) {
-  LatticeSpec spec;
-  spec.lattice = lattice;
-  spec.spacing = spacing;
-  spec.size = size;
-  spec.origin = {-1, 2, 0.5};
-  return spec;
-}
-
 std::int64_t count_inside(const Mesh& mesh, const std::function<bool(Point)>& inside) {
   std::int64_t count = 0;
   for (std::int64_t i = 0; i < mesh.point_count(); ++i)
@@ -40,7 +31,7 @@ std::vector<std::string> names(const Mesh& mesh) {
 
 TEST(TurnedLattice, HasItsRowsAlongTheAxis) {
   for (const double angle : {0.3, 1.1, std::numbers::pi / 2, -2.0}) {
-    LatticeSpec spec = spec_of(LatticeKind::hexagonal, {6, 4, 0}, 0.25);
+    LatticeSpec spec = lattice_block(LatticeKind::hexagonal, {6, 4, 0}, 0.25);
     spec.x_axis = {3 * std::cos(angle), 3 * std::sin(angle), 0};
     const Mesh mesh = make_lattice(spec);
     const auto& v = mesh.triangles.nodes;
@@ -74,7 +65,7 @@ TEST(TurnedLattice, HasItsRowsAlongTheAxis) {
 // Every inner point of a face-centred lattice has twelve neighbours, also in a turned one.
 TEST(TurnedLattice, KeepsNeighboursInSpace) {
   for (const ShapeKind shape : {ShapeKind::block, ShapeKind::cylinder, ShapeKind::sphere}) {
-    LatticeSpec spec = spec_of(LatticeKind::fcc, {2, 2, 2}, 0.3);
+    LatticeSpec spec = lattice_block(LatticeKind::fcc, {2, 2, 2}, 0.3);
     spec.shape = shape;
     spec.radius = 1.2;
     spec.height = 2.0;
@@ -100,7 +91,7 @@ TEST(TurnedLattice, KeepsNeighboursInSpace) {
 }
 
 TEST(TurnedLattice, RefusesAxesThatAreNone) {
-  LatticeSpec plane = spec_of(LatticeKind::hexagonal, {6, 4, 0}, 0.25);
+  LatticeSpec plane = lattice_block(LatticeKind::hexagonal, {6, 4, 0}, 0.25);
   plane.x_axis = {1, 0, 1};
   expect_error([&] { make_lattice(plane); }, {"x_axis", "in the plane"});
   plane.x_axis = {0, 0, 0};
@@ -109,7 +100,7 @@ TEST(TurnedLattice, RefusesAxesThatAreNone) {
   plane.shape = ShapeKind::cylinder;
   plane.radius = plane.height = 1;
   expect_error([&] { make_lattice(plane); }, {"cylinder", "disc"});
-  LatticeSpec solid = spec_of(LatticeKind::bcc, {2, 2, 2}, 0.3);
+  LatticeSpec solid = lattice_block(LatticeKind::bcc, {2, 2, 2}, 0.3);
   solid.x_axis = {0, 2, 0};
   expect_error([&] { make_lattice(solid); }, {"parallel", "y_axis"});
   solid.y_axis = {0, 0, 1};
@@ -136,7 +127,7 @@ bool in_corner_piece(Point x, double margin) {
 
 TEST(CutLattice, HasThePointsWithinTheMesh) {
   const Mesh outline = corner_piece();
-  LatticeSpec spec = spec_of(LatticeKind::square, {0, 0, 0}, 0.1);
+  LatticeSpec spec = lattice_block(LatticeKind::square, {0, 0, 0}, 0.1);
   const Mesh whole = make_lattice(around(spec, outline));
   Mesh cut = whole;
   cut_to_outline(outline, 0.1, cut);
@@ -164,7 +155,7 @@ TEST(CutLattice, HasThePointsWithinATetrahedron) {
   outline.path = "one.msh";
   outline.points = {0, 0, 0, 3, 0, 0, 0, 3, 0, 0, 0, 3};
   outline.tetrahedra.nodes = {0, 2, 1, 3};  // either orientation
-  LatticeSpec spec = spec_of(LatticeKind::cubic, {0, 0, 0}, 0.25);
+  LatticeSpec spec = lattice_block(LatticeKind::cubic, {0, 0, 0}, 0.25);
   const Mesh whole = make_lattice(around(spec, outline));
   Mesh cut = whole;
   cut_to_outline(outline, 0.25, cut);
@@ -178,7 +169,7 @@ TEST(CutLattice, HasThePointsWithinATetrahedron) {
 
 // Many triangles: bins against all of them.
 TEST(CutLattice, FindsWhatASearchThroughAllTrianglesFinds) {
-  LatticeSpec disc = spec_of(LatticeKind::hexagonal, {0, 0, 0}, 0.21);
+  LatticeSpec disc = lattice_block(LatticeKind::hexagonal, {0, 0, 0}, 0.21);
   disc.shape = ShapeKind::sphere;
   disc.radius = 2.3;
   const Mesh outline = make_lattice(disc);
@@ -205,7 +196,7 @@ TEST(CutLattice, FindsWhatASearchThroughAllTrianglesFinds) {
 }
 
 TEST(CutLattice, SaysThatNothingIsLeft) {
-  Mesh lattice = make_lattice(spec_of(LatticeKind::square, {1, 1, 0}, 0.1));  // elsewhere
+  Mesh lattice = make_lattice(lattice_block(LatticeKind::square, {1, 1, 0}, 0.1));  // elsewhere
   expect_error([&] { cut_to_outline(corner_piece(), 0.1, lattice); }, {"L.msh", "same place"});
   Mesh none = corner_piece();
   none.triangles.nodes.clear();

@@ -22,12 +22,7 @@ const double kBcc = 2 * kSpacing / std::numbers::sqrt3,
              kFcc = kSpacing * std::numbers::sqrt2;  // cube edges
 
 LatticeSpec block(LatticeKind lattice, std::array<double, 3> size) {
-  LatticeSpec spec;
-  spec.lattice = lattice;
-  spec.spacing = kSpacing;
-  spec.size = size;
-  spec.origin = {-1, 2, 0.5};
-  return spec;
+  return lattice_block(lattice, size, kSpacing);
 }
 
 LatticeSpec rounded(LatticeKind lattice, ShapeKind shape, double radius, double height = 0) {

@@ -51,6 +51,15 @@ void write_bytes(const std::string& path, const std::string& bytes) {
   ASSERT_TRUE(stream) << path;
 }
 
+LatticeSpec lattice_block(LatticeKind lattice, std::array<double, 3> size, double spacing) {
+  LatticeSpec spec;
+  spec.lattice = lattice;
+  spec.spacing = spacing;
+  spec.size = size;
+  spec.origin = {-1, 2, 0.5};
+  return spec;
+}
+
 double distance(const Mesh& mesh, std::int64_t a, std::int64_t b) {
   double square = 0;
   for (std::size_t k = 0; k < 3; ++k)

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "io/lattice.hpp"
 #include "io/mesh.hpp"
 
 namespace cleave::io::testing {
@@ -16,6 +17,9 @@ std::string gmsh_file(const std::string& name);
 std::string scratch_path(const std::string& name);
 std::string read_bytes(const std::string& path);
 void write_bytes(const std::string& path, const std::string& bytes);
+
+// A block with its lowest corner at (-1, 2, 0.5).
+LatticeSpec lattice_block(LatticeKind lattice, std::array<double, 3> size, double spacing);
 
 // Of two points.
 double distance(const Mesh& mesh, std::int64_t a, std::int64_t b);
