@@ -17,6 +17,7 @@ namespace cleave {
 
 struct Body;
 class ResidentStep;
+class StiffnessSource;
 
 // The step being done: number (1 = first), time at its end, size.
 struct Clock {
@@ -30,24 +31,6 @@ struct StoredEnergy {
 };
 
 inline constexpr std::int64_t kPointsAreParticles = -1;
-
-// Takes a part of the tangent stiffness: the matrix between the degrees of freedom of a few particles, symmetric,
-// (D count, D count), particle by particle.
-class StiffnessSink {
- public:
-  virtual ~StiffnessSink() = default;
-  virtual void add(std::span<const std::int32_t> particles, const double* matrix) = 0;
-};
-
-// What one bond took with it when it broke: K_after = K_before + V W V^T.
-struct StiffnessChange {
-  struct Column {  // of V; particles may come more than once
-    std::vector<std::int32_t> particles;
-    std::vector<double> values;  // (D, count)
-  };
-  std::vector<Column> columns;
-  std::vector<double> weight;  // W, (columns, columns), symmetric
-};
 
 // Which of the bonds break that fail in an equilibrium.
 enum class Breaking {
@@ -89,19 +72,8 @@ class Formulation {
   // by the functions below, on the fields.
   virtual ResidentStep* resident() { return nullptr; }
 
-  // For the static solver, of a formulation that has no gradient operator: the tangent stiffness at the present
-  // positions, part by part in a fixed order; and whether the rest of the body holds a particle at all.
-  virtual bool has_stiffness() const { return false; }
-  virtual void add_stiffness(const Body&, StiffnessSink&) const {}
-  virtual bool holds(const Body&, std::int64_t) const { return true; }
-  // Whether that depends on nothing but on which bonds carry. Then bonds have numbers in the order in which they
-  // broke, from 1, and these are known: how many there are, the stiffness when the first so many had broken,
-  // and what one of them took with it; an end that lost all its bonds is from then on held by itself.
-  virtual bool constant_stiffness() const { return false; }
-  virtual std::int64_t broken_bonds() const { return 0; }
-  virtual void add_stiffness_after(const Body&, std::int64_t, StiffnessSink&) const {}
-  virtual bool held_after(const Body&, std::int64_t, std::int64_t) const { return true; }
-  virtual void stiffness_change(const Body&, std::int64_t, StiffnessChange&) const {}
+  // The stiffness of a formulation that has no gradient operator but can give one; else nullptr.
+  virtual const StiffnessSource* stiffness() const { return nullptr; }
   // What the static solver would miss, as a sentence; empty: nothing.
   virtual std::string static_obstacle(const Body&) const { return {}; }
 

@@ -5,6 +5,8 @@
 #include <iterator>
 #include <span>
 
+#include "model/stiffness_source.hpp"
+
 namespace cleave {
 
 namespace {
@@ -24,7 +26,7 @@ constexpr double kFollowed = 1000;
 
 void KeptStiffness::follow(Body& body, Solver solver, std::int64_t corrections, ThreadTeam& team) {
   std::int32_t& factored = body.fields.integer("factored_bonds")[0];
-  const std::int64_t broken = body.formulation->broken_bonds();
+  const std::int64_t broken = body.formulation->stiffness()->broken_bonds();
   team_ = &team;
   if (solver_ != solver) factored_ = -1;
   solver_ = solver;
@@ -116,7 +118,7 @@ double KeptStiffness::product(const SparseColumn& column, Eigen::Index of) const
 
 void KeptStiffness::add_change(const Body& body, std::int64_t event) {
   StiffnessChange change;
-  body.formulation->stiffness_change(body, event, change);
+  body.formulation->stiffness()->stiffness_change(body, event, change);
   const auto d = static_cast<std::size_t>(body.dimension());
   std::vector<SparseColumn> columns;
   for (const auto& column : change.columns) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "model/stiffness_source.hpp"
 #include "solver/iterative_solver.hpp"
 
 namespace cleave {
@@ -17,6 +18,11 @@ Error no_convergence(const Body& body, const std::string& why,
                      const char* remedy = "use a smaller load increment") {
   return Error(CLEAVE_NO_CONVERGENCE, text(body.label(), ": no equilibrium: ", why, "; ", remedy));
 }
+bool has_constant_stiffness(const Formulation& formulation) {
+  const StiffnessSource* source = formulation.stiffness();
+  return source != nullptr && source->constant_stiffness();
+}
+
 // Breaking has set free what carries a load.
 constexpr const char* kTorn =
     "the body is torn: end the run before, or prescribe displacements in place of the load";
@@ -30,7 +36,7 @@ Newton::Newton(Body& body, const Clock& clock, ThreadTeam& team, const StaticOpt
       team_(team),
       options_(options),
       g_(body.formulation->gradient_operator(team)),
-      constant_(body.formulation->constant_stiffness()),
+      constant_(has_constant_stiffness(*body.formulation)),
       kept_(kept),
       committed_(body),
       displacement_(committed_.values("displacement")),
@@ -46,7 +52,8 @@ Newton::Newton(Body& body, const Clock& clock, ThreadTeam& team, const StaticOpt
 
 bool Newton::is_free(std::size_t c) const {
   return equations().of[c] >= 0 &&
-         (!constant_ || body_.formulation->holds(body_, static_cast<std::int64_t>(c) / kVector));
+         (!constant_ ||
+          body_.formulation->stiffness()->holds(body_, static_cast<std::int64_t>(c) / kVector));
 }
 
 // What breaking cut off stays where it is, which a load does not allow.

@@ -26,7 +26,7 @@ void check_options(const StaticOptions& options) {
 
 void check_body(Body& body, const StaticOptions& options) {
   take_fields(body);
-  if (!body.formulation->has_gradient_operator() && !body.formulation->has_stiffness()) {
+  if (!body.formulation->has_gradient_operator() && body.formulation->stiffness() == nullptr) {
     throw Error(CLEAVE_UNSUPPORTED, text(body.label(), ": formulation ", body.formulation->name(),
                                          " has no stiffness matrix to solve with; use relaxation"));
   }

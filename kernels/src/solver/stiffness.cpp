@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "material/tangent.hpp"
+#include "model/stiffness_source.hpp"
 
 namespace cleave {
 
@@ -168,8 +169,8 @@ Equations::Equations(const Body& body, const GradientOperator* g)
     : of(static_cast<std::size_t>(kVector * body.particles), -1) {
   const int d = body.dimension();
   for (std::int64_t i = 0; i < body.particles; ++i) {
-    const bool carried =
-        g == nullptr ? body.formulation->holds(body, i) : !g->of_particles() || g->volume[i] > 0;
+    const bool carried = g == nullptr ? body.formulation->stiffness()->holds(body, i)
+                                      : !g->of_particles() || g->volume[i] > 0;
     for (int k = 0; k < d && carried; ++k) of[static_cast<std::size_t>(kVector * i + k)] = kFree;
   }
   number(body);
@@ -180,13 +181,13 @@ Equations::Equations(const Body& body, std::int64_t broken)
   Pieces pieces(body.particles);
   std::vector<char> held(static_cast<std::size_t>(body.particles), broken == 0 ? 1 : 0);
   if (broken > 0 && !body.prescribed.empty()) {
-    body.formulation->add_stiffness_after(body, broken, pieces);
+    body.formulation->stiffness()->add_stiffness_after(body, broken, pieces);
     for (const auto& dof : body.prescribed)
       held[static_cast<std::size_t>(pieces.root(dof.particle))] = 1;
   }
   for (std::int64_t i = 0; i < body.particles; ++i) {
     if (held[static_cast<std::size_t>(pieces.root(static_cast<std::int32_t>(i)))] == 0 ||
-        !body.formulation->held_after(body, broken, i))
+        !body.formulation->stiffness()->held_after(body, broken, i))
       continue;
     for (int k = 0; k < body.dimension(); ++k)
       of[static_cast<std::size_t>(kVector * i + k)] = kFree;
@@ -209,7 +210,7 @@ bool assemble(const Body& body, const GradientOperator* g, const HistoryArrays& 
   bool known = true;
   if (g == nullptr) {
     Parts parts(entries, body.dimension());
-    body.formulation->add_stiffness(body, parts);
+    body.formulation->stiffness()->add_stiffness(body, parts);
   } else {
     known = body.dimension() == 2 ? assemble_in<2>(body, *g, committed, entries, k.asymmetry)
                                   : assemble_in<3>(body, *g, committed, entries, k.asymmetry);
@@ -222,7 +223,7 @@ void assemble_after(const Body& body, std::int64_t broken, const Equations& equa
                     Stiffness& k) {
   Entries entries(equations, k);
   Parts parts(entries, body.dimension());
-  body.formulation->add_stiffness_after(body, broken, parts);
+  body.formulation->stiffness()->add_stiffness_after(body, broken, parts);
   entries.finish();
 }
 

@@ -8,18 +8,27 @@
 #include "formulation/vcpm/cell_kernels.hpp"
 #include "formulation/vcpm/lattice.hpp"
 #include "formulation/vcpm/softening.hpp"
+#include "model/stiffness_source.hpp"
 
 namespace cleave::vcpm {
 
-class VolumeCompensatedParticles final : public peridynamics::Peridynamic {
+class VolumeCompensatedParticles final : public peridynamics::Peridynamic, private StiffnessSource {
  public:
   const char* name() const override { return "vcpm"; }
   bool takes_regions() const override { return false; }
   void setup(Body& body, ThreadTeam& team) override;
   void rebuild(Body& body, ThreadTeam& team) override;
-  bool has_stiffness() const override { return true; }
-  void add_stiffness(const Body& body, StiffnessSink& sink) const override;
+  const StiffnessSource* stiffness() const override { return this; }
   std::string static_obstacle(const Body&) const override { return {}; }
+  void release_loose(Body& body, const Clock& clock, ThreadTeam& team) override;
+  std::string one_bond_obstacle(const Body& body) const override;
+  bool derive(const Body& body, std::string_view field, std::int64_t first, std::int64_t last,
+              double* values) const override;
+  std::int64_t bytes() const override;
+
+ private:
+  void add_stiffness(const Body& body, StiffnessSink& sink) const override;
+  bool holds(const Body& body, std::int64_t i) const override;
   bool constant_stiffness() const override {
     return geometry_ == Geometry::linear && !softening_.active();
   }
@@ -29,14 +38,7 @@ class VolumeCompensatedParticles final : public peridynamics::Peridynamic {
   bool held_after(const Body& body, std::int64_t broken, std::int64_t i) const override;
   void stiffness_change(const Body& body, std::int64_t event,
                         StiffnessChange& change) const override;
-  void release_loose(Body& body, const Clock& clock, ThreadTeam& team) override;
-  bool holds(const Body& body, std::int64_t i) const override;
-  std::string one_bond_obstacle(const Body& body) const override;
-  bool derive(const Body& body, std::string_view field, std::int64_t first, std::int64_t last,
-              double* values) const override;
-  std::int64_t bytes() const override;
 
- private:
   double lay_out(Body& body) override;
   void prepare(Body& body) override;
   std::vector<double> limits(const Body& body) override;

@@ -2,6 +2,7 @@
 // energy at any integrity, the energy of runs, restart, units, and what is refused.
 #include "formulation/vcpm/balls.hpp"
 #include "model/model.hpp"
+#include "model/stiffness_source.hpp"
 #include "solver/loaded_patch.hpp"
 
 namespace cleave::test {
@@ -225,7 +226,7 @@ class Weakened {
     sum.n = n_;
     sum.D = static_cast<std::size_t>(cloud_.dimension);
     sum.K.assign(n_ * n_, 0.0);
-    of().formulation->add_stiffness(of(), sum);
+    of().formulation->stiffness()->add_stiffness(of(), sum);
     return sum.K;
   }
   const Cloud& cloud() const { return cloud_; }
