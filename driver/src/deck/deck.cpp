@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "deck/mistakes.hpp"
+#include "deck/unit_text.hpp"
 
 namespace cleave::driver {
 namespace {
@@ -55,12 +56,22 @@ std::vector<const DeckGroup*> Deck::all(const char* group) const {
   return list;
 }
 
+std::string Deck::units() const {
+  for (const DeckGroup* run : all("run"))
+    if (const auto* name = std::get_if<std::string>(&run->key("units").value)) return *name;
+  return {};
+}
+
+std::string Deck::in_units(const std::string& message) const {
+  return UnitText(units()).in_message(message);
+}
+
 void Deck::fail(const DeckGroup& group, const char* key, const std::string& message) const {
-  throw DeckError(message_at(source, group.key(key).place, message));
+  throw DeckError(message_at(source, group.key(key).place, in_units(message)));
 }
 
 void Deck::fail(const DeckGroup& group, const std::string& message) const {
-  throw DeckError(message_at(source, group.place, message));
+  throw DeckError(message_at(source, group.place, in_units(message)));
 }
 
 }  // namespace cleave::driver

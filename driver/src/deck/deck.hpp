@@ -55,6 +55,11 @@ class Deck {
   const DeckGroup& one(const char* group) const;
   std::vector<const DeckGroup*> all(const char* group) const;
 
+  // The set that it names; empty in a deck that has none yet.
+  std::string units() const;
+  // A message with its units, in brackets, those of the deck.
+  std::string in_units(const std::string& message) const;
+
   // "deck.nml:14:3: message" with the line shown; for errors found after reading.
   [[noreturn]] void fail(const DeckGroup& group, const char* key, const std::string& message) const;
   [[noreturn]] void fail(const DeckGroup& group, const std::string& message) const;

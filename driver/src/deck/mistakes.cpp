@@ -31,10 +31,10 @@ void Mistakes::throw_if_any() const {
   std::string text;
   for (std::size_t i = 0; i < shown; ++i) {
     if (i > 0) text += '\n';
-    text += message_at(file_, sorted[i].place, sorted[i].message);
+    text += message_at(deck_.source, sorted[i].place, deck_.in_units(sorted[i].message));
   }
   if (sorted.size() > 1) {
-    text += '\n' + file_.path + ": " + std::to_string(sorted.size()) + " mistakes";
+    text += '\n' + deck_.source.path + ": " + std::to_string(sorted.size()) + " mistakes";
     if (shown < sorted.size()) text += "; the first " + std::to_string(shown) + " are shown";
   }
   throw DeckError(text);

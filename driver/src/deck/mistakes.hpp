@@ -10,7 +10,7 @@ namespace cleave::driver {
 
 class Mistakes {
  public:
-  explicit Mistakes(const io::namelist::File& file) : file_(file) {}
+  explicit Mistakes(const Deck& deck) : deck_(deck) {}
 
   void add(io::namelist::Place place, std::string message);
   // About something that is not in the file.
@@ -24,7 +24,7 @@ class Mistakes {
     io::namelist::Place place;  // line 0: not in the file
     std::string message;
   };
-  const io::namelist::File& file_;
+  const Deck& deck_;  // the part of it that is read
   std::vector<Mistake> list_;
 };
 

@@ -61,7 +61,7 @@ void name_run_after_deck(Deck& deck) {
 Deck interpret(namelist::File file) {
   Deck deck;
   deck.source = std::move(file);
-  Mistakes mistakes(deck.source);
+  Mistakes mistakes(deck);
   read_groups(deck, mistakes);
   add_missing_groups(deck, mistakes);
   check_names(deck, mistakes);

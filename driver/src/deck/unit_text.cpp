@@ -1,6 +1,7 @@
-#include "scene/unit_text.hpp"
+#include "deck/unit_text.hpp"
 
 #include <cctype>
+#include <regex>
 #include <sstream>
 #include <vector>
 
@@ -43,6 +44,18 @@ std::string UnitText::translate(const std::string& symbol) const {
   if (symbol == "N") return force_;
   if (symbol == "J") return energy_;
   return symbol;
+}
+
+std::string UnitText::in_message(const std::string& message) const {
+  static const std::regex units(R"(\[((kg|m|s|Pa|N|J|K|1)(-?\d)?( (kg|m|s|Pa|N|J|K)(-?\d)?)*)\])");
+  std::string text;
+  auto rest = message.cbegin();
+  for (std::smatch found; std::regex_search(rest, message.cend(), found, units);) {
+    text.append(rest, found[0].first);
+    text += '[' + (*this)(found[1].str()) + ']';
+    rest = found[0].second;
+  }
+  return text.append(rest, message.cend());
 }
 
 std::string UnitText::operator()(const std::string& si) const {

@@ -1,4 +1,4 @@
-// Units of fields as the fields table gives them, in SI, rewritten in the units of the deck: "Pa"
+// Units as tables and messages of the kernels give them, in SI, rewritten in the units of the deck: "Pa"
 // is "MPa" in a deck with units = 'mm-ms-g-MPa'. Labels only: no number is ever converted.
 #pragma once
 
@@ -12,6 +12,8 @@ class UnitText {
   explicit UnitText(const std::string& units);
   // "kg m-3" -> "g mm-3"
   std::string operator()(const std::string& si) const;
+  // "horizon 0.03 [m] is ..." -> "horizon 0.03 [mm] is ...": everything in brackets that is a unit.
+  std::string in_message(const std::string& message) const;
 
  private:
   std::string translate(const std::string& symbol) const;

@@ -75,6 +75,13 @@ void say_bodies(const Scene& scene) {
   }
 }
 
+// A static run then seeks equilibrium anew after bonds broke, as often as it takes.
+bool has_bonds_that_break(const Model& model) {
+  for (Index body = 0; body < model.bodies(); ++body)
+    if (model.find_field(body, "bond_status")) return true;
+  return false;
+}
+
 struct StepCost {
   double seconds = 0;
   bool at_least = false;  // it was not waited for
@@ -117,7 +124,7 @@ int check_deck(const Deck& deck, const RunOptions& options) {
   try {
     cost = time_a_step(scene, step.clock);
   } catch (const KernelError& error) {
-    throw RunError(std::string("the first steps failed: ") + error.what());
+    throw RunError("the first steps failed: " + deck.in_units(error.what()));
   }
   if (options.quiet) return 0;
   say_bodies(scene);
@@ -131,9 +138,11 @@ int check_deck(const Deck& deck, const RunOptions& options) {
   }
   for (const std::string& warning : step.warnings) say("warning: " + warning);
   const double total = cost.seconds * static_cast<double>(step.clock.steps);
-  say(std::string("estimated ") + (cost.at_least ? "at least " : "") + number(total / 3600, 3) +
-      " hours (" + duration_text(total) + ") on " + std::to_string(threads) +
-      (threads == 1 ? " thread" : " threads") + ", without output");
+  const bool may_break = Stepping(deck).is_static() && has_bonds_that_break(scene.model());
+  say(std::string("estimated ") + (cost.at_least || may_break ? "at least " : "") +
+      number(total / 3600, 3) + " hours (" + duration_text(total) + ") on " +
+      std::to_string(threads) + (threads == 1 ? " thread" : " threads") + ", without output" +
+      (may_break ? " and bonds that break" : ""));
   say("the deck is good");
   return 0;
 }

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "scene/unit_text.hpp"
+#include "deck/unit_text.hpp"
 
 namespace cleave::driver {
 namespace {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "deck/unit_text.hpp"
 #include "run/components.hpp"
 #include "scene/format.hpp"
 #include "scene/index.hpp"
-#include "scene/unit_text.hpp"
 
 namespace cleave::driver {
 namespace {

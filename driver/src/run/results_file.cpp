@@ -5,10 +5,10 @@
 #include <numeric>
 #include <set>
 
+#include "deck/unit_text.hpp"
 #include "run/components.hpp"
 #include "scene/format.hpp"
 #include "scene/index.hpp"
-#include "scene/unit_text.hpp"
 
 namespace cleave::driver {
 namespace {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "deck/nearest_name.hpp"
+#include "deck/unit_text.hpp"
 #include "io/csv.hpp"
 #include "run/checkpoint.hpp"
 #include "run/checkpoint_files.hpp"
@@ -10,7 +11,6 @@
 #include "scene/csv_columns.hpp"
 #include "scene/format.hpp"
 #include "scene/index.hpp"
-#include "scene/unit_text.hpp"
 
 namespace cleave::driver {
 namespace {

@@ -75,7 +75,7 @@ int Simulation::run() {
     history_.write(scene_, 0, 0.0, energies, {});
     results_.write_frame(scene_, 0.0, energies);
   } catch (const KernelError& error) {
-    throw RunError(std::string("the run failed at its start: ") + error.what());
+    throw RunError("the run failed at its start: " + scene_.deck().in_units(error.what()));
   }
   return loop(0);
 }
@@ -101,7 +101,7 @@ int Simulation::loop(Index first_step) {
     if (checkpoint_at_end_ && step > first_step) write_checkpoint(step);
     stop_file_.remove();
   } catch (const KernelError& error) {
-    fail(step, error.what());
+    fail(step, scene_.deck().in_units(error.what()));
   } catch (const io::Error& error) {
     fail(step, error.what());
   }

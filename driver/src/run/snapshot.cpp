@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "deck/unit_text.hpp"
 #include "io/archive.hpp"
 #include "run/checkpoint_format.hpp"
 #include "scene/format.hpp"
-#include "scene/unit_text.hpp"
 
 namespace cleave::driver {
 namespace {

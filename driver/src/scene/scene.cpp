@@ -39,7 +39,7 @@ Scene Scene::from_bodies(const Deck& deck, std::vector<BodyGeometry> bodies, int
     scene.motions_->prescribe(*scene.model_);
     scene.model_->setup();
   } catch (const KernelError& error) {
-    throw DeckError(deck.source.path + ": " + error.what());
+    throw DeckError(deck.source.path + ": " + deck.in_units(error.what()));
   }
   scene.forces_ = std::make_unique<Forces>(deck, *scene.bodies_, *scene.sets_, *scene.model_);
   return scene;

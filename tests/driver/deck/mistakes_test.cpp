@@ -41,6 +41,15 @@ TEST(Mistakes, OneIsNotCounted) {
       << text;
 }
 
+TEST(Mistakes, UnitsAreThoseOfTheDeck) {
+  const auto zone_in = [](const std::string& units) {
+    return message_of("&zone name='z', radius=-1 /\n&run units = '" + units + "', t_end = 1 /\n");
+  };
+  EXPECT_NE(zone_in("mm-s-t-MPa").find("real number [mm] >= 0."), std::string::npos);
+  EXPECT_NE(zone_in("other").find("real number [m] >= 0."), std::string::npos);
+  EXPECT_NE(zone_in("furlong").find("real number [m] >= 0."), std::string::npos);
+}
+
 TEST(Mistakes, TheLineIsShown) {
   EXPECT_NE(message_of(complete("&zone name='z', radius=-1 /")).find("&zone name='z', radius=-1 /"),
             std::string::npos);

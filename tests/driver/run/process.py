@@ -76,12 +76,13 @@ def told(root):
 
 def told_of_interactions(root):
     """What a check says of peridynamics: ordered sets of two, three and four points, memory and time."""
-    write_deck(root, "t_end=50", """
+    groups = """
 &lattice type='cubic' spacing=1 size=4,3,3 points='centres' /
 &body kinematics='3d' material='unit' formulation='cpd' /
 &material name='unit' law='linear_elastic' E=1 nu=0.3 rho=1 /
 &peridynamics horizon=1.8 /
-""")
+"""
+    write_deck(root, "t_end=50", groups)
     points = list(itertools.product(range(4), range(3), range(3)))
     near = [[sum((a - b) ** 2 for a, b in zip(p, q)) < 3.25 for q in points] for p in points]
     numbers = {2: 0, 4: 0}
@@ -102,6 +103,10 @@ def told_of_interactions(root):
     check(re.search(r"^memory [0-9.]+ [kM]B$", done.stdout, re.M), "memory", done.stdout)
     check(re.search(r"^estimated [0-9.e-]+ hours \(.+\) on 1 thread, without output$", done.stdout, re.M),
           "hours", done.stdout)
+    write_deck(root / "static", "mode='static' t_end=50", groups + "&static method='relaxation' increments=5 /")
+    done = cleave(root / "static", "check", "case.nml")
+    check(re.search(r"^estimated at least [0-9.e-]+ hours \(.+\) on 1 thread, without output and bonds that break$", done.stdout, re.M),
+          "hours of a static run", done.stdout + done.stderr)
 
 
 def told_of_notches(root):
