@@ -144,6 +144,7 @@ std::string Simulation::one_step(Index step, Signals& signals) {
   StepWatch watch;
   watch.relaxing = [&](const StepReport& so_far) {
     progress_.relaxing(step_.clock, step + 1, so_far);
+    publish_records();
     const double wall = seconds_since_start();
     why = trigger_.within_step(wall, {false, signals.stop_requested(), stop_file_.appeared(wall)})
               .why;
@@ -174,11 +175,13 @@ void Simulation::record_event(Index step, double time) {
   history_.write(scene_, step, time, finite_energies(step), {});
   energies_step_ = -1;
   keep(step);
+  publish_records();
 }
 
 void Simulation::after_step(Index step) {
   events_.collect(scene_, scene_.model(), step);
   write_outputs(step);
+  publish_records();
   if (stepping_.is_static()) {  // dear enough for a copy: a later increment may fail or be stopped
     finite_energies(step);
     keep(step);
@@ -200,6 +203,26 @@ void Simulation::write_outputs(Index step) {
   if (record) history_.write(scene_, step, time, energies, report_);
   if (frame) results_.write_frame(scene_, time, energies);
   if (record && !stepping_.is_static()) keep_good_state(step);
+}
+
+// A disk that is full now may have room when the records must be there, for a checkpoint or at the end.
+void Simulation::publish_records() {
+  constexpr double kEvery = 2;     // seconds
+  constexpr double kShare = 0.01;  // of the wall time at most
+  const Index records = history_.records() + events_.records();
+  if (records == published_) return;
+  const double begin = progress_.seconds();
+  if (begin < publish_at_) return;
+  try {
+    events_.flush();
+    history_.flush();
+    published_ = records;
+  } catch (const io::Error& error) {
+    if (!publishing_failed_) progress_.warn(std::string("records wait in memory: ") + error.what());
+    publishing_failed_ = true;
+  }
+  const double end = progress_.seconds();
+  publish_at_ = end + std::max(kEvery, (end - begin) / kShare);
 }
 
 void Simulation::keep(Index step) {

@@ -46,6 +46,8 @@ class Simulation {
   void keep_good_state(std::int64_t step);
   void keep(std::int64_t step);
   void record_event(std::int64_t step, double time);
+  // Now and then, brings records that wait in memory to the files, where they are read while the run goes on.
+  void publish_records();
   // Found once a step. Throws KernelError if the ledger is not finite, which any bad value ends in.
   const cleave_energies& finite_energies(std::int64_t step);
   [[noreturn]] void fail(std::int64_t step, const std::string& what);
@@ -67,6 +69,9 @@ class Simulation {
   bool checkpoint_at_end_;
   Snapshot good_;  // the last state known to be finite
   double snapshot_seconds_ = 0;
+  std::int64_t published_ = 0;  // records in the files, of both tables
+  double publish_at_ = 0;       // of the seconds since the run began
+  bool publishing_failed_ = false;
   StepReport report_;  // of the last step
   cleave_energies energies_{};
   std::int64_t energies_step_ = -1;  // the step they belong to

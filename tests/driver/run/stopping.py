@@ -119,6 +119,28 @@ def on_second_interrupt(root):
     check(not list(here.glob("*.part")), "nothing half written is left")
 
 
+def read_while_running(root):
+    """Records come to the files every two seconds, not only when 4096 of them wait; and a kill leaves them there."""
+    write_deck(root, "t_end=1e6", SHORT.replace("every_steps=10", "every_steps=300"))
+    run = start(root)
+
+    def records():
+        return len((root / "case.history.csv").read_text(encoding="utf-8").splitlines()) - 1
+
+    wait_for(lambda: records() > 2, "records")
+    check(run.poll() is None and records() < 4000, f"{records()} records of a run that goes on")
+    resource.prlimit(run.pid, resource.RLIMIT_FSIZE, (100, resource.RLIM_INFINITY))
+    warned = next((line for line in run.stdout if "warning: records wait in memory: " in line), "")
+    check("cannot write to the file" in warned, "a full disk is not the end", warned)
+    resource.prlimit(run.pid, resource.RLIMIT_FSIZE, (resource.RLIM_INFINITY, resource.RLIM_INFINITY))
+    before = records()
+    wait_for(lambda: records() > before, "the records that waited")
+    run.kill()
+    run.communicate()
+    done = cleave(root, "info", "case.history.nc")
+    check(done.returncode == 0 and re.search(r"table of \d+ records", done.stdout), "they can be read", done.stdout + done.stderr)
+
+
 def on_stop_file(root):
     """It is seen, removed, and a leftover one is refused."""
     write_deck(root, "t_end=1e6 status_every=0.02", PLATE + "&checkpoint stop_file='case.stop' /\n")
@@ -224,6 +246,6 @@ def on_full_disk(root):
 
 MEMORY = "/dev/shm"
 with tempfile.TemporaryDirectory(dir=MEMORY if os.access(MEMORY, os.W_OK | os.X_OK) else None) as temporary:
-    for test in (on_usr1, on_terminate, on_second_interrupt, on_stop_file, before_wall_limit,
+    for test in (on_usr1, on_terminate, on_second_interrupt, read_while_running, on_stop_file, before_wall_limit,
                  every_wall_time, on_full_disk):
         test(pathlib.Path(temporary) / test.__name__)
