@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "formulation/common/bond_event.hpp"
 #include "formulation/common/critical_bonds.hpp"
 #include "formulation/common/stress_points.hpp"
 
@@ -306,15 +307,7 @@ void Fracture::record_events(Body& body, const Network& network, const Clock& cl
   for (std::size_t place = 0; place < broken_.size(); ++place) {
     const std::int32_t bond = broken_[place];
     const auto [i, p] = network.ends(bond);
-    cleave_event e{};
-    e.size = sizeof(cleave_event);
-    e.step = clock.step;
-    e.time = clock.time;
-    e.first = i;
-    e.second = p;
-    for (int k = 0; k < 3; ++k) {
-      e.midpoint[k] = 0.5 * (network.X[kVector * i + k] + network.X[kVector * p + k]);
-    }
+    cleave_event e = bond_event(body, clock, i, p);
     e.criterion = elongation(network, state, i, p);
     e.limit = network.critical[bond];
     e.released = bond_release_[place];

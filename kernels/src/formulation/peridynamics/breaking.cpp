@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "formulation/common/bond_event.hpp"
 #include "formulation/common/critical_bonds.hpp"
 #include "formulation/peridynamics/formulation.hpp"
 
@@ -134,14 +135,7 @@ void Peridynamic::record(Body& body, const Clock& clock) {
                     [&](std::int32_t, std::int64_t i, std::int32_t p, std::int32_t) {
                       const double released = add_released(w.bond, part_of(i) + part_of(p));
                       if (w.kept > 0) return;
-                      cleave_event e{};
-                      e.size = sizeof(cleave_event);
-                      e.step = clock.step;
-                      e.time = clock.time;
-                      e.first = i;
-                      e.second = p;
-                      for (int k = 0; k < 3; ++k)
-                        e.midpoint[k] = 0.5 * (hood_.X[kVector * i + k] + hood_.X[kVector * p + k]);
+                      cleave_event e = bond_event(body, clock, i, p);
                       e.criterion = severity(body, i, p);
                       e.limit = breaking_limit(i, p);
                       e.released = released;
