@@ -15,7 +15,7 @@ HORIZON, TOUGHNESS, LIGAMENT = 0.0675, 2.7, 0.05        # mm, N/mm, mm2
 SLOPES = {"quick": (40, 50), "full": (40, 50, 60, 70, 80, 90, 100)}
 # n: displacement of the top [um] before which nothing breaks, and at the end; increments of 0.1 between
 COURSES = {40: (4.4, 6.2), 50: (3.6, 5.6), 60: (3.4, 5.6), 70: (3.2, 6.2), 80: (3.0, 6.2), 90: (2.9, 6.2), 100: (2.7, 6.2)}
-TORN = {"quick": {"cpd": (40, 50), "bond": (40,)}, "full": {"cpd": SLOPES["full"][:-1], "bond": SLOPES["full"][:-1]}}
+TORN = {"quick": {"cpd": (40, 50), "bond": (40,)}, "full": {"cpd": SLOPES["full"], "bond": SLOPES["full"]}}
 NAMES = {"cpd": "cpd", "bond": "bond_pd"}
 SMALL = 0.25                                            # um
 FRONT = 0.35                                            # damage of a point beside a crack
